@@ -1,0 +1,30 @@
+# Everything here is a Debian 12 package; scripts/install-deps.sh installs them.
+find_package(PkgConfig REQUIRED)
+find_package(TBB CONFIG REQUIRED)
+find_package(glm REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(fmt REQUIRED)
+find_package(PNG REQUIRED)
+find_package(libjpeg-turbo REQUIRED)
+find_package(OpenEXR 3.1 CONFIG REQUIRED)
+pkg_check_modules(libdeflate REQUIRED IMPORTED_TARGET libdeflate)
+find_package(nlohmann_json REQUIRED)
+find_package(assimp REQUIRED)
+find_package(draco REQUIRED)
+find_package(meshoptimizer REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(CLI11 REQUIRED)
+
+# Highway is used through its headers only: its shared library calibrates a timer at every process start (7 ms), and
+# we choose the instruction set per render call, not per process (src/base/instruction_set.h).
+find_path(HWY_INCLUDE_DIR hwy/highway.h REQUIRED)
+add_library(hwy_headers INTERFACE)
+target_include_directories(hwy_headers SYSTEM INTERFACE ${HWY_INCLUDE_DIR})
+
+# Header-only: compiled into one file of ours with the options we need.
+find_path(STB_INCLUDE_DIR stb/stb_image.h REQUIRED)
+add_library(stb_headers INTERFACE)
+target_include_directories(stb_headers SYSTEM INTERFACE ${STB_INCLUDE_DIR})
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
+add_library(tinygltf_headers INTERFACE)
+target_include_directories(tinygltf_headers SYSTEM INTERFACE ${TINYGLTF_INCLUDE_DIR})

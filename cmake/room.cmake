@@ -1,0 +1,17 @@
+# laterna_room(NAME LINK target...): one room of src/ as an object library.
+# Kernels (*.simd.cc) are compiled once per instruction set by Highway.
+set(LATERNA_ROOMS "")
+macro(laterna_room name)
+  cmake_parse_arguments(ROOM "" "" "LINK" ${ARGN})
+  file(GLOB room_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cc)
+  if(room_sources)
+    add_library(room_${name} OBJECT ${room_sources})
+    target_include_directories(room_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(room_${name} PUBLIC ${ROOM_LINK} PRIVATE compiler_flags)
+    list(APPEND LATERNA_ROOMS ${name})
+  else()
+    add_library(room_${name} INTERFACE)
+    target_include_directories(room_${name} INTERFACE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(room_${name} INTERFACE ${ROOM_LINK})
+  endif()
+endmacro()

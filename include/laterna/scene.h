@@ -1,0 +1,237 @@
+// What is lit, and by what: plain data that a caller may fill in by hand or read from files.
+// Spaces, units and directions: docs/conventions.md (glTF's: metres, +Y up, lights and cameras look down −Z).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "laterna/image.h"
+#include "laterna/result.h"
+#include "laterna/view.h"
+
+namespace laterna {
+
+// ---------------------------------------------------------------------------------------------- pictures in a scene
+
+/// A picture that a material or a projector uses: a file, encoded bytes, or pixels. Exactly one of the three is set.
+/// Pixels are decoded once, when a Renderer is made, all pictures in parallel.
+struct Picture {
+  std::string name;                                  ///< for messages: the file, or "scene.glb: images[3]"
+  std::filesystem::path file;                        ///< a file still to be read
+  std::shared_ptr<const std::vector<std::byte>> encoded_owner;  ///< keeps `encoded` alive
+  std::span<const std::byte> encoded;                ///< bytes of a PNG, JPEG, … file
+  std::shared_ptr<const Image> pixels;               ///< decoded by the caller
+};
+
+enum class Wrap : std::uint8_t { repeat, mirror, clamp };
+enum class Filter : std::uint8_t { nearest, linear };
+enum class MipFilter : std::uint8_t { none, nearest, linear };
+
+struct Sampler {
+  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+  Filter magnify = Filter::linear, minify = Filter::linear;
+  MipFilter mip = MipFilter::linear;
+  bool operator==(const Sampler&) const = default;
+};
+
+/// A picture bound to a set of texture coordinates. (u, v) = (0, 0) is the top-left corner of the picture.
+struct Texture {
+  int picture = -1;  ///< index into Scene::pictures; −1: none
+  Sampler sampler;
+  int uv_set = 0;  ///< 0 or 1
+  /// KHR_texture_transform: uv' = translation · rotation · scale · uv; rows of the 2×3 matrix.
+  std::array<float, 6> uv_from_mesh_uv = {1, 0, 0, 0, 1, 0};
+
+  [[nodiscard]] bool is_set() const { return picture >= 0; }
+};
+
+// ---------------------------------------------------------------------------------------------- surfaces
+
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+/// glTF 2.0 metallic-roughness. Factors are linear; textures multiply them.
+struct Material {
+  std::string name;
+  glm::vec4 base_color{1};
+  Texture base_color_texture;  ///< sRGB, alpha linear
+  float metallic = 1, roughness = 1;
+  Texture metallic_roughness_texture;  ///< linear; roughness in G, metallic in B
+  Texture normal_texture;              ///< linear, tangent space
+  float normal_scale = 1;
+  Texture occlusion_texture;  ///< linear, R; scales ambient light only
+  float occlusion_strength = 1;
+  glm::vec3 emissive{0};  ///< radiance factor, KHR_materials_emissive_strength folded in
+  Texture emissive_texture;  ///< sRGB
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_cutoff = 0.5F;
+  bool double_sided = false;
+  bool unlit = false;  ///< KHR_materials_unlit: base colour is what is seen
+};
+
+/// Triangles of one material. Attributes are empty or as long as `positions`.
+struct Primitive {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;               ///< empty: flat normals are computed
+  std::vector<glm::vec4> tangents;              ///< xyz, w = ±1 handedness; empty: computed where a normal map needs them
+  std::array<std::vector<glm::vec2>, 2> uv;
+  std::vector<glm::vec4> colors;                ///< linear, multiply the base colour
+  std::vector<std::uint32_t> indices;           ///< three per triangle; empty: positions come in triples
+  int material = -1;                            ///< −1: glTF's default material, white
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Primitive> primitives;
+};
+
+// ---------------------------------------------------------------------------------------------- light
+
+enum class LightType : std::uint8_t {
+  directional,  ///< lux on a surface square to it, from infinitely far
+  point,        ///< candela in every direction
+  spot,         ///< candela within a cone
+  projector,    ///< an image thrown through a frustum
+};
+
+/// How a projector's intensity depends on the direction, before the slide colours it (row 16).
+enum class BeamProfile : std::uint8_t {
+  flat_field,       ///< equal illuminance all over a square-on wall, as a slide projector's condenser is made to give
+  uniform_candela,  ///< equal intensity in every direction: illuminance falls with cos³ on that wall
+};
+
+/// What a projector throws outside its slide (row 57).
+enum class Outside : std::uint8_t { black, clamp, repeat, mirror };
+
+/// How light fades with distance (row 19).
+enum class Attenuation : std::uint8_t {
+  inverse_square,  ///< 1/d², d the true distance
+  gltf_windowed,   ///< 1/d² · clamp(1 − (d/range)⁴, 0, 1): KHR_lights_punctual with a range
+  linear,          ///< clamp(1 − z/range, 0, 1), z along the axis
+  none,            ///< 1
+  custom,          ///< Light::custom_attenuation
+};
+
+enum class ShadowTechnique : std::uint8_t { none, map, raytraced };
+enum class ShadowFilter : std::uint8_t { nearest, bilinear, percentage_closer };
+enum class CasterFaces : std::uint8_t { both, back_only };
+
+/// One light's shadows. The defaults need no tuning: bias follows from the receiver's plane and the texel's footprint.
+struct ShadowSettings {
+  std::optional<ShadowTechnique> technique;  ///< unset: the picture's
+  int resolution = 0;                        ///< texels per side of a map (per cube face); 0: 2048, point lights 1024
+  ShadowFilter filter = ShadowFilter::bilinear;
+  int kernel = 3;                                  ///< percentage_closer: kernel × kernel nearest taps, 2…9
+  std::optional<double> constant_bias;       ///< metres toward the light; overrides the automatic bias
+  std::optional<double> slope_bias;          ///< texel footprints per unit of depth slope; overrides likewise
+  CasterFaces caster_faces = CasterFaces::both;
+  bool outside_is_lit = true;  ///< beyond the map's sides or far plane
+  bool operator==(const ShadowSettings&) const = default;
+};
+
+struct Light {
+  std::string name;
+  LightType type = LightType::point;
+  bool enabled = true;
+  glm::vec3 color{1};  ///< linear
+  /// Candela (point, spot, projector: on the axis) or lux (directional).
+  double intensity = 1;
+  /// Projector: luminous flux of the fully open frame; where set, `intensity` follows from it.
+  std::optional<double> lumens;
+
+  Attenuation attenuation = Attenuation::inverse_square;
+  double range = std::numeric_limits<double>::infinity();  ///< metres; gltf_windowed and linear
+  /// Row 19's hook: factor on the intensity as a function of z^t, the distance along the light's axis in metres
+  /// (point lights: the distance). Called from several threads at once.
+  std::function<float(float)> custom_attenuation;
+
+  Angle inner_cone, outer_cone = Angle::degrees(45);  ///< spot: half angles
+
+  // Projector; directional uses `projection` too when `fit` is false.
+  Projection projection = Projection::perspective(Angle::degrees(40), 1, 0.1, std::numeric_limits<double>::infinity());
+  bool aspect_from_slide = true;  ///< the frustum's width follows the slide's; yfov is kept
+  int slide = -1;                 ///< index into Scene::pictures; −1: plain white
+  bool slide_is_intensity = false;  ///< the picture is an intensity map: linear, in units of `intensity`
+  BeamProfile profile = BeamProfile::flat_field;
+  Outside outside = Outside::black;
+
+  /// Directional: the shadow map's frustum is fitted to the scene; otherwise `projection` (orthographic) holds it.
+  bool fit = true;
+
+  ShadowSettings shadow;
+};
+
+// ---------------------------------------------------------------------------------------------- the scene
+
+struct Camera {
+  std::string name;
+  Projection projection = Projection::perspective(Angle::degrees(45), 1, 0.1, std::numeric_limits<double>::infinity());
+  /// The frustum's width follows the picture's aspect; otherwise a picture of another aspect shows more, never less.
+  bool aspect_from_picture = true;
+};
+
+/// A place in the scene; parents come before or after their children, without cycles.
+struct Node {
+  std::string name;
+  int parent = -1;
+  glm::dmat4 parent_from_node{1.0};
+  int mesh = -1, camera = -1, light = -1;      ///< indices into the scene's lists
+  std::vector<glm::dmat4> node_from_instance;  ///< EXT_mesh_gpu_instancing; empty: the mesh once
+  bool casts_shadow = true, receives_shadow = true;
+  bool visible = true;  ///< to cameras; an invisible node may still cast
+};
+
+/// The `phong` model's highlight: k_s (n·h)^shininess, for every surface. Unset: from each material's roughness.
+struct PhongHighlight {
+  float specular = 0;
+  float shininess = 32;
+};
+
+struct Scene {
+  std::vector<Picture> pictures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Camera> cameras;
+  std::vector<Light> lights;
+  std::vector<Node> nodes;
+  glm::vec3 ambient{0};                 ///< radiance from everywhere, multiplied by the base colour
+  bool ambient_is_set = false;          ///< by a rig; otherwise the renderer may choose one for a scene without light
+  std::optional<glm::vec3> background;  ///< linear radiance; unset: black, alpha 0
+  std::optional<PhongHighlight> phong;
+  std::vector<Diagnostic> warnings;  ///< what was left out or guessed while reading
+};
+
+struct LoadOptions {
+  enum class Up { y, z } up = Up::y;  ///< for formats that do not say
+  double metres_per_unit = 1;         ///< for formats that do not say
+  /// Further files, merged: a glTF that holds only lights and cameras is a lighting set.
+  std::vector<std::filesystem::path> rigs;
+};
+
+/// Reads glTF 2.0 / GLB, OBJ, PLY, STL, MD2 and whatever else Assimp reads, and merges several files into one scene.
+/// A second directional light, camera and so on of the same name is renamed ("sun.2") with a warning.
+/// Errors name the file and the place in it. The result has passed validate().
+Result<Scene> load_scene(const std::vector<std::filesystem::path>& files, const LoadOptions& options = {});
+
+/// Every fault of a scene: indices out of range, node cycles, attributes of unequal length, values not finite,
+/// frustums that are no frustums. Empty when it can be rendered.
+std::vector<Diagnostic> validate(const Scene& scene);
+
+/// world_from_node of every node. The scene must have passed validate().
+std::vector<glm::dmat4> world_from_nodes(const Scene& scene);
+
+/// A node that holds a camera or light, or −1. Names are unique after load_scene.
+int find_camera_node(const Scene& scene, const std::string& name);
+int find_light_node(const Scene& scene, const std::string& name);
+
+}  // namespace laterna

@@ -1,0 +1,43 @@
+#include "base/task_pool.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <optional>
+#include <thread>
+
+namespace laterna {
+
+struct TaskPool::Arena {
+  explicit Arena(int threads) : arena(threads) {
+    // TBB starts no more workers than processors unless told so.
+    if (threads > tbb::info::default_concurrency()) {
+      allowance.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    }
+  }
+  std::optional<tbb::global_control> allowance;
+  tbb::task_arena arena;
+};
+
+TaskPool::TaskPool(int threads)
+    : threads_(threads > 0 ? threads : std::max(1, tbb::info::default_concurrency())),
+      arena_(std::make_unique<Arena>(threads_)) {}
+
+TaskPool::~TaskPool() = default;
+
+void TaskPool::for_each(std::size_t count, const std::function<void(std::size_t, int)>& body) const {
+  const int workers = static_cast<int>(std::min<std::size_t>(count, static_cast<std::size_t>(threads_)));
+  if (workers <= 1) {
+    for (std::size_t i = 0; i < count; ++i) body(i, 0);
+    return;
+  }
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&](int worker) {
+    for (std::size_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) body(i, worker);
+  };
+  arena_->arena.execute([&] { tbb::parallel_for(0, workers, work, tbb::simple_partitioner()); });
+}
+
+}  // namespace laterna

@@ -1,0 +1,242 @@
+#include "raster/triangle_bins.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raster/triangle_setup.h"
+
+namespace laterna::raster {
+namespace {
+
+/// Clusters handed to one task: enough triangles to pay for sorting them by tile, few enough to stay in cache.
+constexpr std::size_t kClustersPerBatch = 32;
+
+// A linear form over (position − eye), with its additive term: ≥ 0 on the inner side of a clipping plane.
+struct Halfspace {
+  glm::dvec3 normal;
+  double offset;
+};
+
+struct Bounds {
+  double low, high;  // of a halfspace's form over a box
+};
+
+Bounds over_box(const Halfspace& h, glm::dvec3 centre, glm::dvec3 extent) {
+  const double middle = glm::dot(h.normal, centre) + h.offset;
+  const double reach = glm::dot(glm::abs(h.normal), extent);
+  return {middle - reach, middle + reach};
+}
+
+class ClusterPlacer {
+ public:
+  ClusterPlacer(const RasterView& view, const Rect& pixels) : view_(view) {
+    const auto side = [&](double sign, const glm::dvec3& row, double add, double limit) {
+      // sign · (X − limit · W) ≥ 0, W = 1 in an orthographic view.
+      if (view.is_orthographic) return Halfspace{sign * row, sign * (add - limit)};
+      return Halfspace{sign * (row - limit * view.w_row), 0.0};
+    };
+    // One pixel wider than wanted: samples and snapping reach half a pixel and a little more.
+    needed_ = {side(+1, view.x_row, view.x_add, pixels.x_begin - view.origin_x - 1),
+               side(-1, view.x_row, view.x_add, pixels.x_end - view.origin_x + 1),
+               side(+1, view.y_row, view.y_add, pixels.y_begin - view.origin_y - 1),
+               side(-1, view.y_row, view.y_add, pixels.y_end - view.origin_y + 1)};
+    guard_ = {side(+1, view.x_row, view.x_add, -kGuardBand), side(-1, view.x_row, view.x_add, kGuardBand),
+              side(+1, view.y_row, view.y_add, -kGuardBand), side(-1, view.y_row, view.y_add, kGuardBand)};
+    const glm::dvec3 forward = view.view.pose.forward_ws();
+    near_ = {forward, -view.view.projection.near};
+    far_ = {-forward, view.view.projection.far};
+  }
+
+  struct Placed {
+    ClusterPlace place;
+    double nearest;  // distance along the axis
+  };
+
+  [[nodiscard]] Placed place(const Cluster& cluster) const {
+    const glm::dvec3 low(cluster.low_ws[0], cluster.low_ws[1], cluster.low_ws[2]);
+    const glm::dvec3 high(cluster.high_ws[0], cluster.high_ws[1], cluster.high_ws[2]);
+    const glm::dvec3 centre = 0.5 * (low + high) - view_.eye_ws;
+    const glm::dvec3 extent = 0.5 * (high - low);
+    const Bounds near = over_box(near_, centre, extent);
+    if (near.high < 0 || over_box(far_, centre, extent).high < 0) return {ClusterPlace::outside, 0};
+    for (const Halfspace& h : needed_) {
+      if (over_box(h, centre, extent).high < 0) return {ClusterPlace::outside, 0};
+    }
+    const double nearest = near.low + view_.view.projection.near;
+    // A hair's breadth of distance is left to the rounding of the float transform.
+    if (near.low <= 1e-5 * view_.view.projection.near) return {ClusterPlace::crossing, nearest};
+    for (const Halfspace& h : guard_) {
+      if (over_box(h, centre, extent).low <= 0) return {ClusterPlace::crossing, nearest};
+    }
+    return {ClusterPlace::inside, nearest};
+  }
+
+ private:
+  const RasterView& view_;
+  std::array<Halfspace, 4> needed_, guard_;
+  Halfspace near_, far_;
+};
+
+Rect tiles_of(const BinnedTriangle& t, const RasterView& view, const Rect& pixels, int reach) {
+  const auto first = [&](const std::int32_t* v, int origin, int begin) {
+    const int low = std::min({v[0], v[1], v[2]});
+    return std::max(((low + kSubpixels / 2 - 1 - reach) >> kSubpixelBits) + origin, begin) >> kTileBits;
+  };
+  const auto last = [&](const std::int32_t* v, int origin, int end) {
+    const int high = std::max({v[0], v[1], v[2]});
+    return std::min(((high + reach - kSubpixels / 2) >> kSubpixelBits) + origin, end - 1) >> kTileBits;
+  };
+  return {first(t.x, view.origin_x, pixels.x_begin), first(t.y, view.origin_y, pixels.y_begin),
+          last(t.x, view.origin_x, pixels.x_end) + 1, last(t.y, view.origin_y, pixels.y_end) + 1};
+}
+
+// Edge functions of a triangle at the corners of tiles, to leave out tiles that its bounding box touches and it does
+// not. Exact up to rounding, which is paid for by a margin of two pixels.
+class TileRejector {
+ public:
+  TileRejector(const BinnedTriangle& t, const RasterView& view) {
+    for (int i = 0; i < 3; ++i) {
+      const int j = i == 2 ? 0 : i + 1;
+      const double a = t.y[i] - t.y[j];
+      const double b = t.x[j] - t.x[i];
+      const double scale = kSubpixels;
+      slope_x_[i] = a * scale;
+      slope_y_[i] = b * scale;
+      offset_[i] = a * (-view.origin_x * scale - t.x[i]) + b * (-view.origin_y * scale - t.y[i]);
+      // Largest over a tile, with the margin.
+      offset_[i] += std::max(slope_x_[i], 0.0) * kTileSide + std::max(slope_y_[i], 0.0) * kTileSide +
+                    2 * (std::abs(slope_x_[i]) + std::abs(slope_y_[i]));
+    }
+  }
+
+  [[nodiscard]] bool may_touch(int tile_x, int tile_y) const {
+    for (int i = 0; i < 3; ++i) {
+      if (offset_[i] + slope_x_[i] * (tile_x * kTileSide) + slope_y_[i] * (tile_y * kTileSide) < 0) return false;
+    }
+    return true;
+  }
+
+ private:
+  double slope_x_[3], slope_y_[3], offset_[3];
+};
+
+template <class Visit>
+void for_each_tile(const BinnedTriangle& t, const RasterView& view, const Rect& tiles, Visit visit) {
+  if (tiles.width() * tiles.height() <= 2) {
+    for (int y = tiles.y_begin; y < tiles.y_end; ++y) {
+      for (int x = tiles.x_begin; x < tiles.x_end; ++x) visit(x, y);
+    }
+    return;
+  }
+  const TileRejector rejector(t, view);
+  for (int y = tiles.y_begin; y < tiles.y_end; ++y) {
+    for (int x = tiles.x_begin; x < tiles.x_end; ++x) {
+      if (rejector.may_touch(x, y)) visit(x, y);
+    }
+  }
+}
+
+// Counting sort of the batch's triangles by tile, stable: drawing order is kept within each tile.
+void sort_by_tile(Batch& batch, const RasterView& view, const BinOptions& options) {
+  std::vector<Rect> touched(batch.triangles.size());
+  Rect& all = batch.tiles;
+  all = {1 << 20, 1 << 20, 0, 0};
+  for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
+    const Rect r = tiles_of(batch.triangles[i], view, options.pixels, options.sample_reach);
+    touched[i] = r;
+    all = {std::min(all.x_begin, r.x_begin), std::min(all.y_begin, r.y_begin), std::max(all.x_end, r.x_end),
+           std::max(all.y_end, r.y_end)};
+  }
+  if (batch.triangles.empty()) all = {};
+  const auto tile_index = [&](int x, int y) {
+    return static_cast<std::size_t>((y - all.y_begin) * all.width() + x - all.x_begin);
+  };
+  batch.offsets.assign(static_cast<std::size_t>(all.width() * all.height()) + 1, 0);
+  for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
+    for_each_tile(batch.triangles[i], view, touched[i], [&](int x, int y) { ++batch.offsets[tile_index(x, y) + 1]; });
+  }
+  for (std::size_t i = 1; i < batch.offsets.size(); ++i) batch.offsets[i] += batch.offsets[i - 1];
+  batch.entries.resize(batch.offsets.back());
+  std::vector<std::uint32_t> next(batch.offsets.begin(), batch.offsets.end() - 1);
+  for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
+    for_each_tile(batch.triangles[i], view, touched[i], [&](int x, int y) {
+      batch.entries[next[tile_index(x, y)]++] = static_cast<std::uint32_t>(i);
+    });
+  }
+}
+
+struct OrderedCluster {
+  float nearest;
+  std::uint32_t cluster;
+  bool crossing;
+};
+
+std::vector<OrderedCluster> visible_clusters(const RasterView& view, std::span<const Cluster> clusters,
+                                             const BinOptions& options) {
+  const ClusterPlacer placer(view, options.pixels);
+  std::vector<OrderedCluster> visible;
+  visible.reserve(clusters.size());
+  for (std::uint32_t i = 0; i < clusters.size(); ++i) {
+    if ((clusters[i].flags & options.required_flags) != options.required_flags) continue;
+    const auto [place, nearest] = placer.place(clusters[i]);
+    if (place == ClusterPlace::outside) continue;
+    visible.push_back({static_cast<float>(nearest), i, place == ClusterPlace::crossing});
+  }
+  if (options.nearest_first) {
+    std::sort(visible.begin(), visible.end(), [](const OrderedCluster& a, const OrderedCluster& b) {
+      return a.nearest != b.nearest ? a.nearest < b.nearest : a.cluster < b.cluster;
+    });
+  }
+  return visible;
+}
+
+}  // namespace
+
+std::span<const std::uint32_t> Batch::in_tile(int tile_x, int tile_y) const {
+  if (tile_x < tiles.x_begin || tile_x >= tiles.x_end || tile_y < tiles.y_begin || tile_y >= tiles.y_end) return {};
+  const auto i = static_cast<std::size_t>((tile_y - tiles.y_begin) * tiles.width() + tile_x - tiles.x_begin);
+  return {entries.data() + offsets[i], offsets[i + 1] - offsets[i]};
+}
+
+void TriangleBins::fill(const RasterView& view, const TriangleClusters& geometry, const BinOptions& options,
+                        const TaskPool& pool) {
+  const std::vector<OrderedCluster> visible = visible_clusters(view, geometry.clusters, options);
+  used_ = (visible.size() + kClustersPerBatch - 1) / kClustersPerBatch;
+  if (batches_.size() < used_) batches_.resize(used_);
+  const SetupView setup(view);
+  const SetUpCluster set_up_cluster = set_up_cluster_for(options.instruction_set);
+  pool.for_each(used_, [&](std::size_t index, int) {
+    Batch& batch = batches_[index];
+    batch.triangles.clear();
+    batch.planes.clear();
+    batch.statistics = {};
+    const std::size_t end = std::min(visible.size(), (index + 1) * kClustersPerBatch);
+    for (std::size_t i = index * kClustersPerBatch; i < end; ++i) {
+      set_up_cluster({&setup, &geometry, &options, visible[i].cluster, visible[i].crossing}, batch);
+      ++batch.statistics.clusters;
+    }
+    batch.statistics.triangles_binned = batch.triangles.size();
+    sort_by_tile(batch, view, options);
+  });
+}
+
+BinStatistics TriangleBins::statistics() const {
+  BinStatistics sum;
+  for (const Batch& batch : batches()) {
+    sum.clusters += batch.statistics.clusters;
+    sum.triangles += batch.statistics.triangles;
+    sum.triangles_binned += batch.statistics.triangles_binned;
+  }
+  return sum;
+}
+
+std::size_t TriangleBins::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const Batch& batch : batches_) {
+    bytes += batch.triangles.capacity() * sizeof(BinnedTriangle) + batch.planes.capacity() * sizeof(WidePlane) +
+             (batch.offsets.capacity() + batch.entries.capacity()) * sizeof(std::uint32_t);
+  }
+  return bytes;
+}
+
+}  // namespace laterna::raster

@@ -1,0 +1,125 @@
+// From clusters in world space to triangles sorted by screen tile. Output of the set-up stage (triangle_setup), input
+// of the tile stage (tile_raster).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/aligned_vector.h"
+#include "base/task_pool.h"
+#include "base/triangle_clusters.h"
+#include "laterna/instruction_set.h"
+#include "raster/raster_view.h"
+
+namespace laterna::raster {
+
+/// Tiles are 64 × 64 pixels: depth and triangle of each take 32 KB, which stays in the first-level cache.
+inline constexpr int kTileBits = 6;
+inline constexpr int kTileSide = 1 << kTileBits;
+inline constexpr int kTilePixels = kTileSide * kTileSide;
+/// Within a tile, pixels are stored in blocks of 4 × 4: 16 floats, one cache line, one AVX-512 register.
+inline constexpr int kBlockSide = 4;
+inline constexpr int kBlockPixels = kBlockSide * kBlockSide;
+inline constexpr int kBlocksPerSide = kTileSide / kBlockSide;
+
+/// Where pixel (x, y) of a tile is stored.
+constexpr int index_in_tile(int x, int y) {
+  return ((y >> 2) * kBlocksPerSide + (x >> 2)) * kBlockPixels + (y & 3) * kBlockSide + (x & 3);
+}
+
+/// Positions are snapped to 1/256 pixel.
+inline constexpr int kSubpixelBits = 8;
+inline constexpr int kSubpixels = 1 << kSubpixelBits;
+
+/// Triangles are clipped to this many pixels on each side of the origin. Snapped coordinates then fit 23 bits with
+/// sign and an edge's slope 24, so that slope · 63 pixels of a tile stays below 2³⁰.
+inline constexpr int kGuardBand = 16384;
+static_assert(std::int64_t{2} * kGuardBand * kSubpixels * (kTileSide - 1) < (std::int64_t{1} << 30));
+/// Largest side of a picture: half of it lies on each side of the origin, the rest of the guard band spares clipping.
+inline constexpr int kMaxRasterSide = kGuardBand;
+
+/// A triangle up to this many pixels wide and high takes the short path of set-up and tile stage.
+inline constexpr int kSmallTriangle = 16;
+
+enum TriangleKind : std::uint32_t {
+  kMasked = 1U << 0U,   // the alpha cut is asked about each covered sample
+  kBlended = 1U << 1U,  // collected in a second list over the opaque surface
+  kWide = 1U << 2U,     // depth comes from a plane in double precision
+};
+
+/// Output of set-up; one cache line. Corners are ordered so that the area is positive (clockwise on screen).
+struct alignas(kCacheLine) BinnedTriangle {
+  std::int32_t x[3], y[3];  // snapped, relative to the view's origin
+  float base_x, base_y, base_q;  // reversed depth q(x, y) = base_q + q_dx (x − base_x) + q_dy (y − base_y),
+  float q_dx, q_dy;              // unless kWide
+  float q_min, q_max;            // of the corners: snapping may let a covered centre lie just outside the true triangle
+  TriangleId id;
+  std::uint32_t kind;
+  std::uint32_t plane;  // kWide: index into Batch::planes
+};
+static_assert(sizeof(BinnedTriangle) == kCacheLine);
+
+/// q(x, y) = q_0 + q_dx x + q_dy y, from the corners before clipping and snapping.
+struct WidePlane {
+  double q_0, q_dx, q_dy;
+};
+
+/// A rectangle of pixels, or of tiles: begin inclusive, end exclusive.
+struct Rect {
+  int x_begin = 0, y_begin = 0, x_end = 0, y_end = 0;
+  [[nodiscard]] int width() const { return x_end - x_begin; }
+  [[nodiscard]] int height() const { return y_end - y_begin; }
+};
+
+enum class CullFaces : std::uint8_t {
+  none,          ///< shadow maps
+  single_sided,  ///< back faces of clusters that are not double-sided: cameras
+  front,         ///< front faces of closed meshes: "render back faces into the map" (row 81)
+};
+
+struct BinOptions {
+  CullFaces cull = CullFaces::none;
+  std::uint32_t required_flags = 0;  ///< only clusters with all of these
+  bool blend_as_mask = false;        ///< blended surfaces are cut by their alpha instead of being kept apart
+  bool nearest_first = true;         ///< sort clusters front to back: fewer samples are drawn over
+  Rect pixels;                       ///< what is needed of the picture
+  int sample_reach = 0;              ///< largest sample offset from the pixel centre, in 1/256 pixel
+  InstructionSet instruction_set = InstructionSet::scalar;
+};
+
+struct BinStatistics {
+  std::uint64_t clusters = 0, clusters_culled = 0;
+  std::uint64_t triangles = 0, triangles_binned = 0;
+};
+
+/// The work of one task: consecutive clusters in drawing order.
+struct Batch {
+  AlignedVector<BinnedTriangle> triangles;
+  std::vector<WidePlane> planes;
+  Rect tiles;                          // bounds of what the triangles touch
+  std::vector<std::uint32_t> offsets;  // tiles.width() * tiles.height() + 1, into entries
+  std::vector<std::uint32_t> entries;  // triangles, by tile, in drawing order within each
+  BinStatistics statistics;
+
+  [[nodiscard]] std::span<const std::uint32_t> in_tile(int tile_x, int tile_y) const;
+};
+
+/// Triangles sorted by tile. Kept and refilled from frame to frame, so that its memory is touched only once.
+class TriangleBins {
+ public:
+  /// Culls, transforms, clips, sets up and bins. What comes out depends on neither threads nor instruction set.
+  void fill(const RasterView& view, const TriangleClusters& geometry, const BinOptions& options, const TaskPool& pool);
+
+  [[nodiscard]] std::span<const Batch> batches() const { return {batches_.data(), used_}; }
+  [[nodiscard]] BinStatistics statistics() const;
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  std::vector<Batch> batches_;
+  std::size_t used_ = 0;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace laterna::raster

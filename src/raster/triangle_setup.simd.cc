@@ -1,0 +1,374 @@
+// Set-up of a cluster. Small, unclipped triangles are set up N at a time; triangles wider than kSmallTriangle pixels,
+// spanning a large ratio of depths, or crossing the near plane or guard band are set up one by one, with their depth
+// plane in double precision from the corners before clipping. Which of the two is chosen depends on the triangle and
+// the view alone.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/triangle_setup.simd.cc"
+#include "base/simd.h"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "raster/clip.h"
+#include "raster/triangle_setup.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace laterna::raster::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::CappedTag<float, 16>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using FloatVector = hn::Vec<FloatTag>;
+using IntVector = hn::Vec<IntTag>;
+constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+constexpr std::size_t kPadding = 16;
+
+// A cluster's vertices on the screen. Entries of vertices behind the near plane are not numbers to rely on.
+struct ScreenVertices {
+  alignas(64) float x[kVerticesPerCluster + kPadding];
+  alignas(64) float y[kVerticesPerCluster + kPadding];
+  alignas(64) float q[kVerticesPerCluster + kPadding];  // reversed depth
+};
+
+HWY_INLINE FloatVector Dot(FloatTag d, const float* row, FloatVector x, FloatVector y, FloatVector z) {
+  return hn::Set(d, row[0]) * x + hn::Set(d, row[1]) * y + hn::Set(d, row[2]) * z;
+}
+
+HWY_INLINE void TransformVertices(const SetupView& setup, const TriangleClusters& geometry, const Cluster& cluster,
+                                  ScreenVertices& screen) {
+  const FloatTag d;
+  const bool is_orthographic = setup.view->is_orthographic;
+  for (std::size_t i = 0; i < cluster.vertex_count; i += kLanes) {
+    const std::size_t v = cluster.first_vertex + i;
+    // Relative to the eye first: the difference is exact for what is near, however far the scene is from its origin.
+    const auto x = hn::LoadU(d, geometry.x_ws + v) - hn::Set(d, setup.eye_ws[0]);
+    const auto y = hn::LoadU(d, geometry.y_ws + v) - hn::Set(d, setup.eye_ws[1]);
+    const auto z = hn::LoadU(d, geometry.z_ws + v) - hn::Set(d, setup.eye_ws[2]);
+    const auto X = Dot(d, setup.x_row, x, y, z) + hn::Set(d, setup.x_add);
+    const auto Y = Dot(d, setup.y_row, x, y, z) + hn::Set(d, setup.y_add);
+    const auto W = Dot(d, setup.w_row, x, y, z) + hn::Set(d, setup.w_add);
+    if (is_orthographic) {
+      hn::Store(X, d, screen.x + i);
+      hn::Store(Y, d, screen.y + i);
+      hn::Store(W, d, screen.q + i);
+    } else {
+      const auto q = hn::Set(d, 1.0F) / W;
+      hn::Store(X * q, d, screen.x + i);
+      hn::Store(Y * q, d, screen.y + i);
+      hn::Store(q, d, screen.q + i);
+    }
+  }
+}
+
+std::uint32_t KindOf(const Cluster& cluster, const BinOptions& options) {
+  if ((cluster.flags & kAlphaMask) != 0) return kMasked;
+  if ((cluster.flags & kAlphaBlend) != 0) return options.blend_as_mask ? kMasked : kBlended;
+  return 0;
+}
+
+// Which orientation of the snapped triangle is dropped. On screen, y downward, a front face has negative area.
+struct Culling {
+  bool front, back;
+  Culling(const Cluster& cluster, CullFaces cull)
+      : front(cull == CullFaces::front), back(cull == CullFaces::single_sided && (cluster.flags & kDoubleSided) == 0) {}
+};
+
+// ---------------------------------------------------------------------------------------------- one by one
+
+// The plane q = q_0 + q_dx x + q_dy y through three pixel-homogeneous corners with right-hand sides r (1 in a
+// perspective view, the corner's reversed depth in an orthographic one): (X Y W) (q_dx q_dy q_0)ᵀ = r. In double,
+// from the corners as they are before clipping, it is exact to 2⁻²⁴ of the local depth everywhere on the triangle,
+// also where that runs from 0.1 m to 9 km (row 24).
+WidePlane PlaneThrough(const std::array<ClipVertex, 3>& v, const double* r) {
+  const double c0 = v[1].y * v[2].w - v[2].y * v[1].w;
+  const double c1 = v[2].y * v[0].w - v[0].y * v[2].w;
+  const double c2 = v[0].y * v[1].w - v[1].y * v[0].w;
+  const double determinant = v[0].x * c0 + v[1].x * c1 + v[2].x * c2;
+  if (determinant == 0) return {r[0] / v[0].w, 0, 0};
+  const double inverse = 1 / determinant;
+  const double q_dx = (r[0] * c0 + r[1] * c1 + r[2] * c2) * inverse;
+  const double q_dy = (r[0] * (v[2].x * v[1].w - v[1].x * v[2].w) + r[1] * (v[0].x * v[2].w - v[2].x * v[0].w) +
+                       r[2] * (v[1].x * v[0].w - v[0].x * v[1].w)) *
+                      inverse;
+  const double q_0 = (r[0] * (v[1].x * v[2].y - v[2].x * v[1].y) + r[1] * (v[2].x * v[0].y - v[0].x * v[2].y) +
+                      r[2] * (v[0].x * v[1].y - v[1].x * v[0].y)) *
+                     inverse;
+  if (!(std::isfinite(q_dx) && std::isfinite(q_dy) && std::isfinite(q_0))) return {r[0] / v[0].w, 0, 0};
+  return {q_0, q_dx, q_dy};
+}
+
+ClipVertex ClipPosition(const RasterView& view, double x, double y, double z) {
+  const glm::dvec3 p = glm::dvec3(x, y, z) - view.eye_ws;
+  const auto dot = [&](glm::dvec3 row) { return row.x * p.x + row.y * p.y + row.z * p.z; };
+  const double w = dot(view.w_row);
+  if (view.is_orthographic) {
+    return {dot(view.x_row) + view.x_add, dot(view.y_row) + view.y_add, 1, view.reversed_near - (w + view.w_add)};
+  }
+  return {dot(view.x_row), dot(view.y_row), w, w - view.view.projection.near};
+}
+
+std::int32_t Snap(double pixel) { return static_cast<std::int32_t>(std::nearbyint(pixel * kSubpixels)); }
+
+struct SnappedVertex {
+  std::int32_t x, y;
+};
+
+bool TouchesPixels(const Rect& pixels, const RasterView& view, int reach, const SnappedVertex* v) {
+  const auto low = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+    return (std::min({a, b, c}) - kSubpixels / 2 - reach + kSubpixels - 1) >> kSubpixelBits;
+  };
+  const auto high = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+    return (std::max({a, b, c}) - kSubpixels / 2 + reach) >> kSubpixelBits;
+  };
+  const int x0 = std::max(low(v[0].x, v[1].x, v[2].x), pixels.x_begin - view.origin_x);
+  const int x1 = std::min(high(v[0].x, v[1].x, v[2].x), pixels.x_end - 1 - view.origin_x);
+  const int y0 = std::max(low(v[0].y, v[1].y, v[2].y), pixels.y_begin - view.origin_y);
+  const int y1 = std::min(high(v[0].y, v[1].y, v[2].y), pixels.y_end - 1 - view.origin_y);
+  return x0 <= x1 && y0 <= y1;
+}
+
+void EmitWide(const SnappedVertex* v, float q_min, float q_max, TriangleId id, std::uint32_t kind, std::uint32_t plane,
+              const Culling& culling, Batch& batch) {
+  const std::int64_t area = std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) -
+                            std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
+  if (area == 0 || (area < 0 ? culling.front : culling.back)) return;
+  const int b = area > 0 ? 1 : 2;
+  const int c = 3 - b;
+  BinnedTriangle t{};
+  t.x[0] = v[0].x, t.x[1] = v[b].x, t.x[2] = v[c].x;
+  t.y[0] = v[0].y, t.y[1] = v[b].y, t.y[2] = v[c].y;
+  t.q_min = q_min;
+  t.q_max = q_max;
+  t.id = id;
+  t.kind = kind | kWide;
+  t.plane = plane;
+  batch.triangles.push_back(t);
+}
+
+// Sets up one triangle that the vector path has passed over, or any triangle of a cluster that crosses the near plane
+// or the guard band.
+void SetUpWide(const SetupTask& task, const ScreenVertices& screen, std::uint32_t triangle, Batch& batch) {
+  const RasterView& view = *task.setup->view;
+  const TriangleClusters& geometry = *task.geometry;
+  const Cluster& cluster = geometry.clusters[task.cluster];
+  const TriangleId id = task.cluster << kTriangleBits | triangle;
+  const std::uint32_t packed = geometry.corners[id];
+  std::array<ClipVertex, 3> corners;
+  std::array<std::uint32_t, 3> local;
+  double right_side[3];
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    local[i] = packed >> (8 * i) & 255U;
+    const std::uint32_t v = cluster.first_vertex + local[i];
+    corners[i] = ClipPosition(view, geometry.x_ws[v], geometry.y_ws[v], geometry.z_ws[v]);
+    right_side[i] = view.is_orthographic ? view.reversed_near - corners[i].near_side : 1.0;
+  }
+  const ClippedPolygon polygon = clip_triangle(corners, kGuardBand);
+  if (polygon.count < 3) return;
+  const WidePlane plane = PlaneThrough(corners, right_side);
+
+  SnappedVertex snapped[8];
+  double q_min = 0, q_max = 0;
+  for (std::size_t i = 0; i < polygon.count; ++i) {
+    const ClipVertex& v = polygon.vertices[i];
+    double q = view.is_orthographic ? view.reversed_near - v.near_side : 1 / v.w;
+    if (polygon.corner[i] >= 0) {
+      // The neighbours' snapped position, bit for bit.
+      const std::uint32_t corner = local[static_cast<std::size_t>(polygon.corner[i])];
+      snapped[i] = {Snap(screen.x[corner]), Snap(screen.y[corner])};
+    } else {
+      snapped[i] = {Snap(v.x / v.w), Snap(v.y / v.w)};
+    }
+    q_min = i == 0 ? q : std::min(q_min, q);
+    q_max = i == 0 ? q : std::max(q_max, q);
+  }
+  const std::uint32_t kind = KindOf(cluster, *task.options);
+  const Culling culling(cluster, task.options->cull);
+  const auto plane_index = static_cast<std::uint32_t>(batch.planes.size());
+  const std::size_t before = batch.triangles.size();
+  for (std::size_t i = 1; i + 1 < polygon.count; ++i) {
+    const SnappedVertex fan[3] = {snapped[0], snapped[i], snapped[i + 1]};
+    if (!TouchesPixels(task.options->pixels, view, task.options->sample_reach, fan)) continue;
+    EmitWide(fan, static_cast<float>(q_min), static_cast<float>(q_max), id, kind, plane_index, culling, batch);
+  }
+  if (batch.triangles.size() > before) batch.planes.push_back(plane);
+}
+
+// ---------------------------------------------------------------------------------------------- N at a time
+
+// One field of N set-up triangles, on its way from vectors to records.
+struct SmallFields {
+  alignas(64) std::int32_t x[3][16], y[3][16];
+  alignas(64) float base_x[16], base_y[16], base_q[16], q_dx[16], q_dy[16], q_min[16], q_max[16];
+};
+
+HWY_INLINE void EmitSmall(const SmallFields& fields, std::uint64_t mask, TriangleId first_id, std::uint32_t kind,
+                          Batch& batch) {
+  for (; mask != 0; mask &= mask - 1) {
+    const auto i = static_cast<std::size_t>(__builtin_ctzll(mask));
+    BinnedTriangle& t = batch.triangles.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      t.x[k] = fields.x[k][i];
+      t.y[k] = fields.y[k][i];
+    }
+    t.base_x = fields.base_x[i];
+    t.base_y = fields.base_y[i];
+    t.base_q = fields.base_q[i];
+    t.q_dx = fields.q_dx[i];
+    t.q_dy = fields.q_dy[i];
+    t.q_min = fields.q_min[i];
+    t.q_max = fields.q_max[i];
+    t.id = first_id + static_cast<std::uint32_t>(i);
+    t.kind = kind;
+    t.plane = 0;
+  }
+}
+
+// Bounds of sample positions that a span of snapped coordinates may touch, as pixel indices relative to the origin.
+HWY_INLINE IntVector FirstPixel(IntTag di, IntVector low, int reach) {
+  return hn::ShiftRight<kSubpixelBits>(low + hn::Set(di, kSubpixels / 2 - 1 - reach));
+}
+HWY_INLINE IntVector LastPixel(IntTag di, IntVector high, int reach) {
+  return hn::ShiftRight<kSubpixelBits>(high + hn::Set(di, reach - kSubpixels / 2));
+}
+
+HWY_INLINE FloatVector Min3(FloatVector a, FloatVector b, FloatVector c) { return hn::Min(hn::Min(a, b), c); }
+HWY_INLINE FloatVector Max3(FloatVector a, FloatVector b, FloatVector c) { return hn::Max(hn::Max(a, b), c); }
+HWY_INLINE IntVector Min3(IntVector a, IntVector b, IntVector c) { return hn::Min(hn::Min(a, b), c); }
+HWY_INLINE IntVector Max3(IntVector a, IntVector b, IntVector c) { return hn::Max(hn::Max(a, b), c); }
+
+void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& batch) {
+  const FloatTag d;
+  const IntTag di;
+  const RasterView& view = *task.setup->view;
+  const Cluster& cluster = task.geometry->clusters[task.cluster];
+  const Culling culling(cluster, task.options->cull);
+  const std::uint32_t kind = KindOf(cluster, *task.options);
+  const Rect& pixels = task.options->pixels;
+  const int reach = task.options->sample_reach;
+  const TriangleId first_id = task.cluster << kTriangleBits;
+  const auto x_first = hn::Set(di, pixels.x_begin - view.origin_x);
+  const auto x_last = hn::Set(di, pixels.x_end - 1 - view.origin_x);
+  const auto y_first = hn::Set(di, pixels.y_begin - view.origin_y);
+  const auto y_last = hn::Set(di, pixels.y_end - 1 - view.origin_y);
+  const auto subpixels = hn::Set(d, static_cast<float>(kSubpixels));
+  const auto byte = hn::Set(di, 255);
+  SmallFields fields;
+
+  for (std::uint32_t first = 0; first < cluster.triangle_count; first += kLanes) {
+    // The array is padded with degenerate triangles to a whole cluster.
+    const auto packed = hn::Load(di, reinterpret_cast<const std::int32_t*>(task.geometry->corners + first_id + first));
+    const auto a = hn::And(packed, byte);
+    const auto b = hn::And(hn::ShiftRight<8>(packed), byte);
+    const auto c = hn::And(hn::ShiftRight<16>(packed), byte);
+    const auto xa = hn::GatherIndex(d, screen.x, a), xb = hn::GatherIndex(d, screen.x, b),
+               xc = hn::GatherIndex(d, screen.x, c);
+    const auto ya = hn::GatherIndex(d, screen.y, a), yb = hn::GatherIndex(d, screen.y, b),
+               yc = hn::GatherIndex(d, screen.y, c);
+    const auto ixa = hn::NearestInt(xa * subpixels), ixb = hn::NearestInt(xb * subpixels),
+               ixc = hn::NearestInt(xc * subpixels);
+    const auto iya = hn::NearestInt(ya * subpixels), iyb = hn::NearestInt(yb * subpixels),
+               iyc = hn::NearestInt(yc * subpixels);
+
+    const auto x_low = Min3(ixa, ixb, ixc), x_high = Max3(ixa, ixb, ixc);
+    const auto y_low = Min3(iya, iyb, iyc), y_high = Max3(iya, iyb, iyc);
+    const auto x_begin = hn::Max(FirstPixel(di, x_low, reach), x_first);
+    const auto x_end = hn::Min(LastPixel(di, x_high, reach), x_last);
+    const auto y_begin = hn::Max(FirstPixel(di, y_low, reach), y_first);
+    const auto y_end = hn::Min(LastPixel(di, y_high, reach), y_last);
+    const auto touched = hn::Not(hn::Or(x_begin > x_end, y_begin > y_end));
+    if (hn::AllFalse(di, touched)) continue;
+
+    const auto qa = hn::GatherIndex(d, screen.q, a), qb = hn::GatherIndex(d, screen.q, b),
+               qc = hn::GatherIndex(d, screen.q, c);
+    const auto q_min = Min3(qa, qb, qc), q_max = Max3(qa, qb, qc);
+    const auto limit = hn::Set(di, kSmallTriangle * kSubpixels);
+    auto is_small = hn::Not(hn::Or(x_high - x_low > limit, y_high - y_low > limit));
+    if (!view.is_orthographic) {
+      is_small = hn::And(is_small, hn::RebindMask(di, q_max <= q_min + q_min));
+    }
+
+    // Exact where it is used: both differences fit 13 bits with sign for small triangles.
+    const auto area = (ixb - ixa) * (iyc - iya) - (ixc - ixa) * (iyb - iya);
+    auto kept = area != hn::Zero(di);
+    if (culling.front) kept = hn::And(kept, area > hn::Zero(di));
+    if (culling.back) kept = hn::And(kept, area < hn::Zero(di));
+    const auto small = hn::And(hn::And(touched, is_small), kept);
+    const auto wide = hn::AndNot(is_small, touched);
+
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(di, wide, bits);
+    std::uint64_t wide_bits = bits[0] | std::uint64_t{bits[1]} << 8U;
+    for (; wide_bits != 0; wide_bits &= wide_bits - 1) {
+      SetUpWide(task, screen, first + static_cast<std::uint32_t>(__builtin_ctzll(wide_bits)), batch);
+    }
+    if (hn::AllFalse(di, small)) continue;
+
+    // The depth plane, from positions before snapping.
+    const auto ux = xb - xa, uy = yb - ya, uq = qb - qa, vx = xc - xa, vy = yc - ya, vq = qc - qa;
+    const auto determinant = ux * vy - vx * uy;
+    // A sliver has no gradient worth the name; q_min and q_max bound it to the truth.
+    const auto is_flat = hn::Abs(determinant) < hn::Set(d, 1e-9F);
+    const auto inverse = hn::Set(d, 1.0F) / hn::IfThenElse(is_flat, hn::Set(d, 1.0F), determinant);
+    const auto q_dx = hn::IfThenZeroElse(is_flat, (uq * vy - vq * uy) * inverse);
+    const auto q_dy = hn::IfThenZeroElse(is_flat, (vq * ux - uq * vx) * inverse);
+
+    const auto swap = area < hn::Zero(di);
+    hn::Store(ixa, di, fields.x[0]);
+    hn::Store(hn::IfThenElse(swap, ixc, ixb), di, fields.x[1]);
+    hn::Store(hn::IfThenElse(swap, ixb, ixc), di, fields.x[2]);
+    hn::Store(iya, di, fields.y[0]);
+    hn::Store(hn::IfThenElse(swap, iyc, iyb), di, fields.y[1]);
+    hn::Store(hn::IfThenElse(swap, iyb, iyc), di, fields.y[2]);
+    hn::Store(xa, d, fields.base_x);
+    hn::Store(ya, d, fields.base_y);
+    hn::Store(qa, d, fields.base_q);
+    hn::Store(q_dx, d, fields.q_dx);
+    hn::Store(q_dy, d, fields.q_dy);
+    hn::Store(q_min, d, fields.q_min);
+    hn::Store(q_max, d, fields.q_max);
+    bits[0] = bits[1] = 0;
+    hn::StoreMaskBits(di, small, bits);
+    EmitSmall(fields, bits[0] | std::uint64_t{bits[1]} << 8U, first_id + first, kind, batch);
+  }
+}
+
+void set_up_cluster(const SetupTask& task, Batch& batch) {
+  const Cluster& cluster = task.geometry->clusters[task.cluster];
+  batch.statistics.triangles += cluster.triangle_count;
+  ScreenVertices screen;
+  TransformVertices(*task.setup, *task.geometry, cluster, screen);
+  if (!task.crossing) {
+    SetUpInside(task, screen, batch);
+    return;
+  }
+  for (std::uint32_t i = 0; i < cluster.triangle_count; ++i) SetUpWide(task, screen, i, batch);
+}
+
+}  // namespace laterna::raster::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace laterna::raster {
+
+SetupView::SetupView(const RasterView& raster_view) : view(&raster_view) {
+  const RasterView& v = raster_view;
+  for (int i = 0; i < 3; ++i) {
+    eye_ws[i] = static_cast<float>(v.eye_ws[i]);
+    x_row[i] = static_cast<float>(v.x_row[i]);
+    y_row[i] = static_cast<float>(v.y_row[i]);
+    w_row[i] = static_cast<float>(v.w_row[i]);
+  }
+  // What rounding the eye to float moved it by is put back after the product.
+  const glm::dvec3 rounding = glm::dvec3(eye_ws[0], eye_ws[1], eye_ws[2]) - v.eye_ws;
+  x_add = static_cast<float>(v.x_add + glm::dot(v.x_row, rounding));
+  y_add = static_cast<float>(v.y_add + glm::dot(v.y_row, rounding));
+  w_add = static_cast<float>(v.w_add + glm::dot(v.w_row, rounding));
+}
+
+LATERNA_KERNEL_TABLE(set_up_cluster)
+
+}  // namespace laterna::raster
+#endif
