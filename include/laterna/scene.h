@@ -18,6 +18,7 @@
 
 #include "laterna/image.h"
 #include "laterna/result.h"
+#include "laterna/sampler.h"
 #include "laterna/view.h"
 
 namespace laterna {
@@ -32,17 +33,6 @@ struct Picture {
   std::shared_ptr<const std::vector<std::byte>> encoded_owner;  ///< keeps `encoded` alive
   std::span<const std::byte> encoded;                ///< bytes of a PNG, JPEG, … file
   std::shared_ptr<const Image> pixels;               ///< decoded by the caller
-};
-
-enum class Wrap : std::uint8_t { repeat, mirror, clamp };
-enum class Filter : std::uint8_t { nearest, linear };
-enum class MipFilter : std::uint8_t { none, nearest, linear };
-
-struct Sampler {
-  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-  Filter magnify = Filter::linear, minify = Filter::linear;
-  MipFilter mip = MipFilter::linear;
-  bool operator==(const Sampler&) const = default;
 };
 
 /// A picture bound to a set of texture coordinates. (u, v) = (0, 0) is the top-left corner of the picture.
@@ -222,6 +212,15 @@ struct LoadOptions {
 /// A second directional light, camera and so on of the same name is renamed ("sun.2") with a warning.
 /// Errors name the file and the place in it. The result has passed validate().
 Result<Scene> load_scene(const std::vector<std::filesystem::path>& files, const LoadOptions& options = {});
+
+/// Limits of one scene. Corners of triangles (3 · 2^28) and vertices are counted in 32 bits; as many vertices already
+/// take 10 GB. A triangle that an instanced mesh shows a thousand times counts a thousand times in kMaxPlacedTriangles.
+inline constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 28;
+inline constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 28;
+inline constexpr std::uint64_t kMaxPlacedTriangles = std::uint64_t{1} << 31;
+/// Metres from the origin, of any surface, camera or light: products of three such lengths stay finite in single
+/// precision.
+inline constexpr double kMaxCoordinate = 1e12;
 
 /// Every fault of a scene: indices out of range, node cycles, attributes of unequal length, values not finite,
 /// frustums that are no frustums. Empty when it can be rendered.

@@ -130,4 +130,18 @@ ClusteredPrimitive build_clusters(std::span<const glm::vec3> positions, std::spa
   return out;
 }
 
+ClusteredMeshes build_clusters(const Scene& scene, const TaskPool& pool) {
+  ClusteredMeshes meshes(scene.meshes.size());
+  std::vector<std::pair<std::size_t, std::size_t>> all;
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    meshes[m].resize(scene.meshes[m].primitives.size());
+    for (std::size_t p = 0; p < meshes[m].size(); ++p) all.emplace_back(m, p);
+  }
+  pool.for_each(all.size(), [&](std::size_t i, int) {
+    const Primitive& primitive = scene.meshes[all[i].first].primitives[all[i].second];
+    meshes[all[i].first][all[i].second] = build_clusters(primitive.positions, primitive.indices);
+  });
+  return meshes;
+}
+
 }  // namespace laterna::frame

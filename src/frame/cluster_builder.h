@@ -7,6 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "base/task_pool.h"
+#include "laterna/scene.h"
+
 namespace laterna::frame {
 
 /// One primitive's clusters, before it has a place in the world.
@@ -23,5 +26,9 @@ struct ClusteredPrimitive {
 /// `indices` may be empty: positions then come in triples. Triangles whose indices repeat are dropped. The order
 /// depends on the input alone.
 ClusteredPrimitive build_clusters(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
+
+/// All primitives of a scene, by mesh and primitive.
+using ClusteredMeshes = std::vector<std::vector<ClusteredPrimitive>>;
+ClusteredMeshes build_clusters(const Scene& scene, const TaskPool& pool);
 
 }  // namespace laterna::frame

@@ -1,0 +1,22 @@
+// Benchmark workloads: a JSON file of named scenes, cameras and lights with exact numbers, so that different programs
+// can be timed on the same work. The form is described in docs/performance.md.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "laterna/render.h"
+
+namespace laterna::app {
+
+struct Workload {
+  Scene scene;
+  View view;
+  RenderSettings settings;
+};
+
+/// `scenes`: the folder that holds the workload's models; empty: "scenes" beside the file.
+Result<Workload> load_workload(const std::filesystem::path& file, const std::string& name,
+                               const std::filesystem::path& scenes = {});
+
+}  // namespace laterna::app

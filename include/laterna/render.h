@@ -1,0 +1,151 @@
+// A scene made ready, and pictures of it. A Renderer may be asked by several threads at once; it has no global state,
+// and what it gives depends on neither the number of threads nor the instruction set.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "laterna/image.h"
+#include "laterna/instruction_set.h"
+#include "laterna/result.h"
+#include "laterna/scene.h"
+#include "laterna/shading.h"
+#include "laterna/view.h"
+
+namespace laterna {
+
+/// Groups of channels beside beauty; list_layers() describes them.
+enum class Layer : std::uint8_t {
+  light,       ///< ambient.R/G/B and light.<name>.R/G/B; beauty is their sum in this order, bit for bit
+  visibility,  ///< visibility.<name>: the fraction α of the light that arrives
+  uv,          ///< uv.<name>.u/.v: slide coordinates of projectors, NaN outside the frame
+  lux,         ///< lux.Y: illuminance of the surface in lux
+  depth,       ///< Z: metres along the axis, +infinity where nothing is
+  position,    ///< P.X/Y/Z: world, metres
+  normal,      ///< N.X/Y/Z: shading normal, world
+  albedo,      ///< albedo.R/G/B: base colour, linear
+  object,      ///< id.object: number of the object, −1 where nothing is; names in the metadata
+  passes,      ///< pass.*: the frame buffer after each pass, with Passes::multi
+};
+struct LayerDescription {
+  Layer layer;
+  std::string_view name;      ///< on the command line
+  std::string_view channels;  ///< in files
+  std::string_view meaning;
+};
+std::span<const LayerDescription> list_layers();
+
+struct TechniqueDescription {
+  ShadowTechnique technique;
+  std::string_view name;
+  std::string_view meaning;
+};
+std::span<const TechniqueDescription> list_techniques();
+
+struct RenderSettings {
+  int width = 1280, height = 720;                          ///< 1…16384 each
+  int samples = 1;                                         ///< per pixel: 1, 2, 4, 8 or 16
+  ShadingModel shading = ShadingModel::pbr;
+  ShadowTechnique shadows = ShadowTechnique::map;          ///< for lights that name none
+  Passes passes = Passes::single;
+  Interpolation interpolation = Interpolation::perspective;
+  int anisotropy = 8;                                      ///< most probes of a stretched texture footprint, 1…16
+  std::vector<Layer> layers;
+};
+
+/// Called now and then with the fraction done, in [0, 1], from one thread at a time; false asks to stop.
+using Progress = std::function<bool(double fraction)>;
+
+/// Where pixels go. Rows from the top, `row_stride` in elements.
+struct ColorTarget8 {
+  std::uint8_t* pixels = nullptr;  ///< sRGB-encoded
+  int channels = 3;                ///< 3: R, G, B; 4: with alpha, colour not premultiplied
+  std::size_t row_stride = 0;
+  float exposure = 1;              ///< factor on linear light before encoding
+};
+struct ChannelTarget {
+  std::string name;  ///< a channel's name, such as "R", "Z" or "light.sun.G"
+  float* pixels = nullptr;
+  std::size_t row_stride = 0;
+};
+struct RenderTarget {
+  std::optional<ColorTarget8> color8;
+  std::vector<ChannelTarget> channels;
+};
+
+/// What a picture cost.
+struct RenderStatistics {
+  double plan_ms = 0;    ///< lights' matrices
+  double shadow_ms = 0;  ///< drawing shadow maps
+  double bin_ms = 0;     ///< culling, transforming, clipping, sorting by tile
+  double shade_ms = 0;   ///< rasterising and shading
+  double total_ms = 0;
+  std::uint64_t triangles = 0, triangles_drawn = 0;  ///< of the camera's view: considered, and sorted into tiles
+  int maps_drawn = 0, maps_kept = 0;                 ///< shadow maps
+  struct LightMemory {
+    std::string light;
+    int maps = 0;
+    std::size_t bytes = 0;
+  };
+  std::vector<LightMemory> shadow_memory;
+};
+
+struct RendererOptions {
+  int threads = 0;                                   ///< 0: one per processor
+  std::optional<InstructionSet> instruction_set;     ///< unset: the best this machine has
+};
+
+class Renderer {
+ public:
+  /// Validates the scene, decodes its pictures and lays out its triangles.
+  static Result<Renderer> create(Scene scene, const RendererOptions& options = {});
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  [[nodiscard]] const Scene& scene() const;
+  [[nodiscard]] int threads() const;
+  [[nodiscard]] InstructionSet instruction_set() const;
+
+  /// The view of a camera of the scene for a picture of width × height; an empty name is the first camera.
+  /// Error: no camera of that name; lists those that are there.
+  [[nodiscard]] Result<View> camera_view(const std::string& name, int width, int height) const;
+  /// A view of the whole scene from in front and a little above, for scenes without a camera.
+  [[nodiscard]] View overview(int width, int height) const;
+  /// What a light sees, for debugging views. Error: no such light, or one that shines all round.
+  [[nodiscard]] Result<View> light_view(const std::string& name) const;
+
+  /// Names of all channels that `settings` produce, in the order of a file.
+  [[nodiscard]] std::vector<std::string> channel_names(const RenderSettings& settings) const;
+
+  /// Draws into the caller's memory. Shadow maps are kept from call to call while lights and casters stay.
+  Result<RenderStatistics> render_into(const View& view, const RenderSettings& settings, const RenderTarget& target,
+                                       const Progress& progress = {}) const;
+  /// Draws all channels, with metadata. R, G, B are linear and unclamped; A is coverage, colour premultiplied by it.
+  Result<LayeredImage> render(const View& view, const RenderSettings& settings, const Progress& progress = {},
+                              RenderStatistics* statistics = nullptr) const;
+
+  /// Moves a node, or replaces a light. What does not depend on it is kept. Not to be called during a render.
+  Result<void> set_transform(int node, const glm::dmat4& parent_from_node);
+  Result<void> set_light(int light, Light value);
+
+  /// The depth map a light's shadow technique would use: metres along the light's axis, +infinity where nothing is;
+  /// `face` counts the faces of an all-round light. Channel "Z".
+  [[nodiscard]] Result<LayeredImage> depth_map(const std::string& light, int face = 0) const;
+
+ private:
+  struct Implementation;
+  explicit Renderer(std::unique_ptr<Implementation> implementation);
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Factor that brings a picture's log-mean luminance to middle grey (0.18), from its R, G, B and A channels (Reinhard
+/// et al., Photographic tone reproduction for digital images, 2002). 1 for a picture without light.
+float automatic_exposure(const LayeredImage& image);
+
+}  // namespace laterna

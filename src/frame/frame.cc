@@ -1,0 +1,92 @@
+#include "frame/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "base/elementary.h"
+#include "frame/flatten.h"
+#include "frame/place_lights.h"
+
+namespace laterna::frame {
+namespace {
+
+TextureBinding bind(const Texture& texture, image::MipUse use, const TextureLibrary& library) {
+  return {library.find(texture.picture, use), texture.sampler, texture.uv_set, texture.uv_from_mesh_uv};
+}
+
+Surface make_surface(const Material& m, const TextureLibrary& library) {
+  Surface s;
+  for (int i = 0; i < 4; ++i) s.base_color[static_cast<std::size_t>(i)] = m.base_color[i];
+  for (int i = 0; i < 3; ++i) s.emissive[static_cast<std::size_t>(i)] = m.emissive[i];
+  s.metallic = m.metallic;
+  s.roughness = m.roughness;
+  s.normal_scale = m.normal_scale;
+  s.occlusion_strength = m.occlusion_strength;
+  s.alpha_cutoff = m.alpha_cutoff;
+  s.alpha_mode = m.alpha_mode;
+  s.double_sided = m.double_sided;
+  s.unlit = m.unlit;
+  s.base_color_texture = bind(m.base_color_texture, base_color_use(m), library);
+  s.metallic_roughness_texture = bind(m.metallic_roughness_texture, image::MipUse::data, library);
+  s.normal_texture = bind(m.normal_texture, image::MipUse::data, library);
+  s.occlusion_texture = bind(m.occlusion_texture, image::MipUse::data, library);
+  s.emissive_texture = bind(m.emissive_texture, image::MipUse::colour, library);
+  return s;
+}
+
+std::vector<Diagnostic> find_far_objects(const Frame& frame) {
+  std::vector<Diagnostic> faults;
+  std::uint32_t last = kNoStream;
+  for (const Cluster& cluster : frame.clusters) {
+    bool is_near = true;
+    for (int k = 0; k < 3; ++k) is_near &= std::abs(cluster.low_ws[k]) <= kFarthest && std::abs(cluster.high_ws[k]) <= kFarthest;
+    if (is_near || cluster.object == last) continue;
+    last = cluster.object;
+    faults.push_back({{}, "object \"" + frame.object_names[last] + "\"", "lies farther than 1e9 m from the origin"});
+  }
+  return faults;
+}
+
+}  // namespace
+
+Result<Frame> Frame::build(const Scene& scene, std::shared_ptr<const TextureLibrary> textures,
+                           const ClusteredMeshes& meshes, const TaskPool& pool) {
+  Frame frame;
+  frame.textures = std::move(textures);
+  for (const Material& material : scene.materials) frame.surfaces.push_back(make_surface(material, *frame.textures));
+  frame.surfaces.push_back(make_surface(Material{}, *frame.textures));
+  flatten_meshes(scene, meshes, world_from_nodes(scene), pool, frame);
+  if (std::vector<Diagnostic> faults = find_far_objects(frame); !faults.empty()) {
+    return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+  }
+  frame.place_lights_and_cameras(scene);
+  return frame;
+}
+
+void Frame::place_lights_and_cameras(const Scene& scene) {
+  lights.clear();
+  cameras.clear();
+  frame::place_lights_and_cameras(scene, world_from_nodes(scene), *this);
+}
+
+std::size_t Frame::triangle_count() const {
+  std::size_t count = 0;
+  for (const Cluster& cluster : clusters) count += cluster.triangle_count;
+  return count;
+}
+
+std::size_t Frame::memory_bytes() const {
+  std::size_t floats = 0;
+  for (const auto* array : {&x_ws, &y_ws, &z_ws, &normal_x_ws, &normal_y_ws, &normal_z_ws, &uv_u[0], &uv_u[1], &uv_v[0],
+                            &uv_v[1], &color_r, &color_g, &color_b, &color_a, &tangent_x_ws, &tangent_y_ws,
+                            &tangent_z_ws, &tangent_sign}) {
+    floats += array->capacity();
+  }
+  return floats * sizeof(float) + corners.capacity() * sizeof(std::uint32_t) + clusters.capacity() * sizeof(Cluster) +
+         streams.capacity() * sizeof(ClusterStreams);
+}
+
+}  // namespace laterna::frame

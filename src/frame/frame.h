@@ -1,0 +1,104 @@
+// One instant of a scene, flat: every instance in world space, as structure of arrays. What every later stage reads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/aligned_vector.h"
+#include "base/task_pool.h"
+#include "base/triangle_clusters.h"
+#include "frame/cluster_builder.h"
+#include "frame/texture_library.h"
+#include "laterna/scene.h"
+
+namespace laterna::frame {
+
+/// A picture as a material uses it.
+struct TextureBinding {
+  const image::MipChain* chain = nullptr;  ///< null: no texture
+  Sampler sampler;
+  int uv_set = 0;
+  std::array<float, 6> uv_from_mesh_uv = {1, 0, 0, 0, 1, 0};
+};
+
+/// A Material with its pictures found.
+struct Surface {
+  std::array<float, 4> base_color = {1, 1, 1, 1};
+  std::array<float, 3> emissive = {0, 0, 0};
+  float metallic = 1, roughness = 1, normal_scale = 1, occlusion_strength = 1, alpha_cutoff = 0.5F;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  bool double_sided = false, unlit = false;
+  TextureBinding base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+};
+
+/// A light where it stands. Colour and intensity stay in the scene's Light.
+struct PlacedLight {
+  const Light* light = nullptr;
+  int node = -1;
+  Pose pose;
+  View view;                               ///< projector: its frustum, with the slide's aspect
+  double intensity = 0;                    ///< candela on the axis, or lux: what `lumens` comes to
+  const image::MipChain* slide = nullptr;  ///< null: plain white
+};
+
+struct PlacedCamera {
+  const Camera* camera = nullptr;
+  int node = -1;
+  Pose pose;
+};
+
+/// Streams that not every cluster has; kNoStream where it is missing, otherwise the index of its first vertex.
+struct ClusterStreams {
+  std::uint32_t normal = 0, uv[2] = {0, 0}, color = 0, tangent = 0;
+};
+inline constexpr std::uint32_t kNoStream = 0xFFFFFFFFU;
+
+/// Coordinates beyond this many metres have lost all detail in single precision.
+inline constexpr float kFarthest = 1e9F;
+
+struct Bounds {
+  glm::vec3 low{0}, high{0};
+  bool is_empty = true;
+};
+
+class Frame {
+ public:
+  /// The scene must have passed validate(), and outlive the frame. `textures` and `meshes` are the scene's.
+  /// Error: an instance lies farther out than kFarthest.
+  static Result<Frame> build(const Scene& scene, std::shared_ptr<const TextureLibrary> textures,
+                             const ClusteredMeshes& meshes, const TaskPool& pool);
+
+  /// Puts lights and cameras where the scene has them now; the rest of the frame stays.
+  void place_lights_and_cameras(const Scene& scene);
+
+  [[nodiscard]] TriangleClusters geometry() const {
+    return {x_ws.data(), y_ws.data(), z_ws.data(), corners.data(), clusters};
+  }
+  [[nodiscard]] std::size_t triangle_count() const;
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+  // Vertices, one entry per cluster vertex, readable 16 entries beyond the last.
+  AlignedVector<float> x_ws, y_ws, z_ws;
+  AlignedVector<float> normal_x_ws, normal_y_ws, normal_z_ws;
+  AlignedVector<float> uv_u[2], uv_v[2];
+  AlignedVector<float> color_r, color_g, color_b, color_a;
+  AlignedVector<float> tangent_x_ws, tangent_y_ws, tangent_z_ws, tangent_sign;
+
+  AlignedVector<std::uint32_t> corners;  // kTrianglesPerCluster per cluster
+  std::vector<Cluster> clusters;
+  std::vector<ClusterStreams> streams;  // one per cluster
+
+  std::vector<Surface> surfaces;          // scene materials, then glTF's default
+  std::vector<std::string> object_names;  // one per instance of a mesh
+  std::vector<PlacedLight> lights;
+  std::vector<PlacedCamera> cameras;
+  Bounds bounds;
+  bool has_blending = false;
+  std::shared_ptr<const TextureLibrary> textures;
+};
+
+}  // namespace laterna::frame

@@ -1,0 +1,18 @@
+// Lights and cameras at the places their nodes give them.
+#pragma once
+
+#include "frame/frame.h"
+
+namespace laterna::frame {
+
+/// Fills the frame's lights (enabled ones) and cameras, in node order.
+void place_lights_and_cameras(const Scene& scene, const std::vector<glm::dmat4>& world_from_node, Frame& frame);
+
+/// Candela on the axis that make the frame of a projector throw `lumens` in all (row 16): flux = intensity × solid
+/// angle for uniform candela, illuminance at 1 m × area of the frame at 1 m for a flat field.
+double candela_from_lumens(double lumens, const Projection& projection, BeamProfile profile);
+
+/// Solid angle of a perspective frustum in steradians.
+double solid_angle(const Projection& projection);
+
+}  // namespace laterna::frame

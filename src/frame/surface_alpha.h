@@ -1,0 +1,12 @@
+// The alpha of a surface at one point, for rays.
+#pragma once
+
+#include "frame/frame.h"
+
+namespace laterna::frame {
+
+/// Base colour's alpha at the point of triangle `id` with weights b and c of its second and third corner: factor,
+/// vertex colour and the full-size texture, bilinearly filtered.
+float alpha_at(const Frame& frame, TriangleId id, float b, float c);
+
+}  // namespace laterna::frame

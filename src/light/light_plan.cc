@@ -1,0 +1,148 @@
+#include "light/light_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace laterna::light {
+namespace {
+
+using frame::Frame;
+using frame::PlacedLight;
+
+constexpr int kDefaultResolution = 2048;
+constexpr int kDefaultFaceResolution = 1024;
+constexpr int kMaxResolution = 16384;
+
+// Shadow maps of point and spot lights see what is this far from the light. Reversed depth loses nothing by it.
+constexpr double kNearestCaster = 0.01;
+
+// Cones wider than this are drawn on the faces of a cube: one plane would spend its texels on the rim.
+constexpr double kWidestSingleView = 75;  // degrees of half angle
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+  void include(double centre, double reach) {
+    low = std::min(low, centre - reach);
+    high = std::max(high, centre + reach);
+  }
+  [[nodiscard]] bool is_empty() const { return low > high; }
+  [[nodiscard]] double length() const { return high - low; }
+};
+
+// Extent of the casters along an axis of the light.
+struct CasterExtent {
+  Range x, y, depth;
+};
+
+CasterExtent casters_along(const Pose& pose, const Frame& frame) {
+  CasterExtent extent;
+  const glm::dvec3 axes[3] = {pose.right_ws(), pose.up_ws(), pose.forward_ws()};
+  Range* ranges[3] = {&extent.x, &extent.y, &extent.depth};
+  for (const Cluster& c : frame.clusters) {
+    if ((c.flags & kCastsShadow) == 0) continue;
+    const glm::dvec3 low(c.low_ws[0], c.low_ws[1], c.low_ws[2]);
+    const glm::dvec3 high(c.high_ws[0], c.high_ws[1], c.high_ws[2]);
+    const glm::dvec3 centre = 0.5 * (low + high) - pose.position_ws;
+    for (int k = 0; k < 3; ++k) ranges[k]->include(glm::dot(axes[k], centre), glm::dot(glm::abs(axes[k]), 0.5 * (high - low)));
+  }
+  return extent;
+}
+
+// The smallest box of the light's axes around all that casts. What lies outside it is lit, so receivers do not count.
+// The map's texels are squares: its sides are shared out by the box's proportions.
+ShadowView fit_to_casters(const Pose& pose, const Frame& frame, int resolution) {
+  CasterExtent extent = casters_along(pose, frame);
+  if (extent.x.is_empty()) extent = {{-1, 1}, {-1, 1}, {0, 1}};
+  const double largest = std::max({extent.x.length(), extent.y.length(), extent.depth.length(), 1e-3});
+  const double width = std::max(extent.x.length(), 1e-3 * largest);
+  const double height = std::max(extent.y.length(), 1e-3 * largest);
+  const double proportion = std::sqrt(width / height);
+  const auto side = [&](double texels) { return std::clamp(static_cast<int>(std::ceil(texels)), 16, kMaxResolution); };
+  ShadowView shadow;
+  shadow.width = side(resolution * proportion);
+  shadow.height = side(resolution / proportion);
+  // Two texels to spare on each side, so that filters at the rim find what is there.
+  constexpr int kRim = 2;
+  const double texel = std::max(width / (shadow.width - 2 * kRim), height / (shadow.height - 2 * kRim));
+  const double x = 0.5 * (extent.x.low + extent.x.high);
+  const double y = 0.5 * (extent.y.low + extent.y.high);
+  const double margin = 1e-3 * largest;
+  shadow.view.pose = pose;
+  shadow.view.projection = {true,
+                            x - 0.5 * texel * shadow.width,
+                            x + 0.5 * texel * shadow.width,
+                            y - 0.5 * texel * shadow.height,
+                            y + 0.5 * texel * shadow.height,
+                            extent.depth.low - margin,
+                            extent.depth.high + margin};
+  return shadow;
+}
+
+// +X, −X, +Y, −Y, +Z, −Z of the world; up is chosen to be no neighbour's direction of view.
+std::vector<ShadowView> cube_views(const Pose& pose, const ShadowSettings& settings, double range) {
+  const int border = 2 + settings.kernel / 2;
+  const int side = settings.resolution + 2 * border;
+  const double half = static_cast<double>(side) / settings.resolution;
+  std::vector<ShadowView> views;
+  for (int face = 0; face < 6; ++face) {
+    glm::dvec3 gaze(0);
+    gaze[face / 2] = face % 2 == 0 ? 1 : -1;
+    const glm::dvec3 up = face / 2 == 1 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+    ShadowView shadow;
+    shadow.view.pose = *Pose::look_at(pose.position_ws, pose.position_ws + gaze, up);
+    // look_at normalises (target − position), which rounds where the position is far from the origin.
+    shadow.view.pose.world_from_view_rotation = glm::dmat3(glm::cross(gaze, up), up, -gaze);
+    shadow.view.projection = {false, -half, half, -half, half, kNearestCaster, range};
+    shadow.width = shadow.height = side;
+    shadow.border = border;
+    views.push_back(shadow);
+  }
+  return views;
+}
+
+std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& frame, const ShadowSettings& settings) {
+  const Light& light = *placed.light;
+  const double range = light.range;
+  switch (light.type) {
+    case LightType::directional:
+      if (light.fit) return {fit_to_casters(placed.pose, frame, settings.resolution)};
+      return {{{placed.pose, light.projection}, settings.resolution, settings.resolution, 0}};
+    case LightType::projector:
+      return {{placed.view, settings.resolution, settings.resolution, 0}};
+    case LightType::spot: {
+      const double half_angle = light.outer_cone.in_degrees();
+      if (half_angle > kWidestSingleView) break;
+      // A little wider than the cone, for the filter at its rim.
+      const Angle field = Angle::degrees(std::min(2 * half_angle * 1.01 + 0.1, 2 * kWidestSingleView + 2));
+      return {{{placed.pose, Projection::perspective(field, 1, kNearestCaster, range)},
+               settings.resolution,
+               settings.resolution,
+               0}};
+    }
+    case LightType::point: break;
+  }
+  return cube_views(placed.pose, settings, range);
+}
+
+}  // namespace
+
+LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings) {
+  LightPlan plan;
+  for (const PlacedLight& placed : frame.lights) {
+    PlannedLight planned;
+    planned.placed = &placed;
+    planned.settings = placed.light->shadow;
+    planned.technique = planned.settings.technique.value_or(plan_settings.technique);
+    if (planned.settings.resolution == 0) {
+      planned.settings.resolution =
+          placed.light->type == LightType::point ? kDefaultFaceResolution : kDefaultResolution;
+    }
+    if (planned.technique == ShadowTechnique::map) planned.shadow_views = shadow_views(placed, frame, planned.settings);
+    plan.lights.push_back(std::move(planned));
+  }
+  return plan;
+}
+
+}  // namespace laterna::light

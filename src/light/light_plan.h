@@ -1,0 +1,36 @@
+// What will be drawn for the lights, before a pixel is: each light with its matrices and the shadow views that its
+// technique wants. Matrices and lists only.
+#pragma once
+
+#include <vector>
+
+#include "frame/frame.h"
+
+namespace laterna::light {
+
+/// A depth map to be drawn: an ordinary View, drawn by the camera's raster code.
+struct ShadowView {
+  View view;
+  int width = 0, height = 0;  // texels
+  /// Part of the map that stands for directions of its own; texels beyond only feed filters (cube faces).
+  int border = 0;
+};
+
+struct PlannedLight {
+  const frame::PlacedLight* placed = nullptr;
+  ShadowTechnique technique = ShadowTechnique::none;
+  ShadowSettings settings;             // resolution filled in
+  std::vector<ShadowView> shadow_views;  // map: one, or six for a light that shines all round
+};
+
+struct LightPlan {
+  std::vector<PlannedLight> lights;  // in the frame's order
+};
+
+struct PlanSettings {
+  ShadowTechnique technique = ShadowTechnique::map;  // for lights that name none
+};
+
+LightPlan make_light_plan(const frame::Frame& frame, const PlanSettings& settings);
+
+}  // namespace laterna::light

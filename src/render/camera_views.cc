@@ -1,0 +1,69 @@
+#include "render/camera_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/elementary.h"
+
+namespace laterna::render {
+namespace {
+
+// A picture of another aspect than the frustum's shows more, never less; or the width follows the picture.
+Projection fitted(const Camera& camera, int width, int height) {
+  Projection p = camera.projection;
+  const double aspect = static_cast<double>(width) / height;
+  const bool widen = camera.aspect_from_picture || aspect > p.aspect();
+  if (widen) {
+    const double middle = (p.left + p.right) / 2;
+    const double half = (p.top - p.bottom) * aspect / 2;
+    // A frustum that is off its axis stays so in proportion.
+    const double shift = (p.right - p.left) > 0 ? middle / (p.right - p.left) * 2 * half : 0;
+    p.left = shift - half;
+    p.right = shift + half;
+  } else {
+    const double middle = (p.bottom + p.top) / 2;
+    const double half = (p.right - p.left) / aspect / 2;
+    const double shift = middle / (p.top - p.bottom) * 2 * half;
+    p.bottom = shift - half;
+    p.top = shift + half;
+  }
+  return p;
+}
+
+std::string names_of(const frame::Frame& frame) {
+  std::string names;
+  for (const frame::PlacedCamera& placed : frame.cameras) {
+    names += (names.empty() ? "\"" : ", \"") + placed.camera->name + "\"";
+  }
+  return names.empty() ? "it has none" : "it has " + names;
+}
+
+}  // namespace
+
+Result<View> camera_view(const frame::Frame& frame, const std::string& name, int width, int height) {
+  for (const frame::PlacedCamera& placed : frame.cameras) {
+    if (name.empty() || placed.camera->name == name) return View{placed.pose, fitted(*placed.camera, width, height)};
+  }
+  return tl::unexpected(
+      Error(Failure::bad_usage, Diagnostic{{}, {}, "the scene has no camera \"" + name + "\": " + names_of(frame)}));
+}
+
+View overview(const frame::Frame& frame, int width, int height) {
+  const Angle yfov = Angle::degrees(40);
+  const double aspect = static_cast<double>(width) / height;
+  const glm::dvec3 low(frame.bounds.low);
+  const glm::dvec3 high(frame.bounds.high);
+  const glm::dvec3 centre = 0.5 * (low + high);
+  const double radius = std::max(0.5 * glm::length(high - low), 1e-6);
+  const double half_angle = 0.5 * yfov.in_radians();
+  const double narrower = arctangent(tangent(half_angle) * std::min(1.0, aspect));
+  const double distance = radius / sine(narrower);
+  const glm::dvec3 toward_eye = glm::normalize(glm::dvec3(0.55, 0.35, 1.0));
+  View view;
+  view.pose = *Pose::look_at(centre + toward_eye * distance, centre, glm::dvec3(0, 1, 0));
+  view.projection = Projection::perspective(yfov, aspect, distance / 1000, std::numeric_limits<double>::infinity());
+  return view;
+}
+
+}  // namespace laterna::render

@@ -1,0 +1,144 @@
+#include "render/channels.h"
+
+#include <algorithm>
+#include <array>
+
+namespace laterna {
+namespace {
+
+constexpr std::array<LayerDescription, 10> kLayers = {{
+    {Layer::light, "light", "ambient.R/G/B, light.<name>.R/G/B", "ambient and each light by itself; their sum is the picture"},
+    {Layer::visibility, "visibility", "visibility.<name>", "fraction of each light that arrives, 0 in shadow"},
+    {Layer::uv, "uv", "uv.<name>.u/.v", "slide coordinates of each projector, NaN outside its frame"},
+    {Layer::lux, "lux", "lux.Y", "illuminance of the surface in lux"},
+    {Layer::depth, "depth", "Z", "distance along the camera's axis in metres, infinity where nothing is"},
+    {Layer::position, "position", "P.X/Y/Z", "world position in metres"},
+    {Layer::normal, "normal", "N.X/Y/Z", "shading normal in world space"},
+    {Layer::albedo, "albedo", "albedo.R/G/B", "base colour, linear"},
+    {Layer::object, "object", "id.object", "number of the object, -1 where nothing is; names in the metadata"},
+    {Layer::passes, "passes", "pass.*", "the frame buffer after each pass of --passes multi"},
+}};
+
+constexpr std::array<TechniqueDescription, 3> kTechniques = {{
+    {ShadowTechnique::none, "none", "light passes through everything"},
+    {ShadowTechnique::map, "map", "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
+    {ShadowTechnique::raytraced, "raytraced", "hard shadows by rays: slow, exact, the reference for the others"},
+}};
+
+}  // namespace
+
+std::span<const LayerDescription> list_layers() { return kLayers; }
+std::span<const TechniqueDescription> list_techniques() { return kTechniques; }
+
+namespace render {
+namespace {
+
+using shade::TileColor;
+using shade::TilePlane;
+using shade::TileResult;
+
+bool has(const RenderSettings& settings, Layer layer) {
+  return std::find(settings.layers.begin(), settings.layers.end(), layer) != settings.layers.end();
+}
+
+class ChannelList {
+ public:
+  template <class Find>  // Find: TileResult → const TilePlane*
+  void add(std::string name, Find find) {
+    channels_.push_back({std::move(name), [find](const TileResult& tile, TilePlane&) { return find(tile); }});
+  }
+  template <class Find>  // Find: TileResult → const TileColor&
+  void add_color(const std::string& prefix, const std::array<const char*, 3>& suffixes, Find find) {
+    add(prefix + suffixes[0], [find](const TileResult& tile) { return &find(tile).r; });
+    add(prefix + suffixes[1], [find](const TileResult& tile) { return &find(tile).g; });
+    add(prefix + suffixes[2], [find](const TileResult& tile) { return &find(tile).b; });
+  }
+  void add_object_ids() {
+    channels_.push_back({"id.object", [](const TileResult& tile, TilePlane& buffer) -> const TilePlane* {
+                           for (std::size_t i = 0; i < buffer.size(); ++i) {
+                             const std::uint32_t id = tile.object[i];
+                             buffer[i] = id == shade::kNoObject ? -1.0F : static_cast<float>(id);
+                           }
+                           return &buffer;
+                         }});
+  }
+  std::vector<PictureChannel> take() { return std::move(channels_); }
+
+ private:
+  std::vector<PictureChannel> channels_;
+};
+
+constexpr std::array<const char*, 3> kRgb = {"R", "G", "B"};
+constexpr std::array<const char*, 3> kXyz = {"X", "Y", "Z"};
+
+void add_lights(ChannelList& list, const RenderSettings& settings, const frame::Frame& frame) {
+  if (has(settings, Layer::light)) {
+    list.add_color("ambient.", kRgb, [](const TileResult& t) -> const TileColor& { return t.radiance[0]; });
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+      list.add_color("light." + frame.lights[i].light->name + ".", kRgb,
+                     [i](const TileResult& t) -> const TileColor& { return t.radiance[i + 1]; });
+    }
+  }
+  if (has(settings, Layer::visibility)) {
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+      list.add("visibility." + frame.lights[i].light->name, [i](const TileResult& t) { return &t.visibility[i]; });
+    }
+  }
+  if (!has(settings, Layer::uv)) return;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    if (frame.lights[i].light->type != LightType::projector) continue;
+    list.add("uv." + frame.lights[i].light->name + ".u", [i](const TileResult& t) { return &t.slide_s[i]; });
+    list.add("uv." + frame.lights[i].light->name + ".v", [i](const TileResult& t) { return &t.slide_t[i]; });
+  }
+}
+
+void add_passes(ChannelList& list, const RenderSettings& settings, const frame::Frame& frame) {
+  if (!has(settings, Layer::passes) || settings.passes != Passes::multi) return;
+  list.add("pass.1.z", [](const TileResult& t) { return &t.depth; });
+  list.add_color("pass.1.c.", kRgb, [](const TileResult& t) -> const TileColor& { return t.pass_colors[0]; });
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    const std::string& name = frame.lights[i].light->name;
+    list.add("pass.2." + name + ".alpha", [i](const TileResult& t) { return &t.visibility[i]; });
+    list.add_color("pass.3." + name + ".c.", kRgb,
+                   [i](const TileResult& t) -> const TileColor& { return t.pass_colors[i + 1]; });
+  }
+}
+
+}  // namespace
+
+std::vector<PictureChannel> picture_channels(const RenderSettings& settings, const frame::Frame& frame) {
+  ChannelList list;
+  list.add_color("", kRgb, [](const TileResult& t) -> const TileColor& { return t.beauty; });
+  list.add("A", [](const TileResult& t) { return &t.alpha; });
+  add_lights(list, settings, frame);
+  if (has(settings, Layer::lux)) list.add("lux.Y", [](const TileResult& t) { return &t.lux; });
+  if (has(settings, Layer::depth)) list.add("Z", [](const TileResult& t) { return &t.depth; });
+  if (has(settings, Layer::position)) {
+    list.add_color("P.", kXyz, [](const TileResult& t) -> const TileColor& { return t.position; });
+  }
+  if (has(settings, Layer::normal)) {
+    list.add_color("N.", kXyz, [](const TileResult& t) -> const TileColor& { return t.normal; });
+  }
+  if (has(settings, Layer::albedo)) {
+    list.add_color("albedo.", kRgb, [](const TileResult& t) -> const TileColor& { return t.albedo; });
+  }
+  if (has(settings, Layer::object)) list.add_object_ids();
+  add_passes(list, settings, frame);
+  return list.take();
+}
+
+shade::WantedLayers wanted_layers(const RenderSettings& settings) {
+  shade::WantedLayers wanted;
+  wanted.passes = has(settings, Layer::passes) && settings.passes == Passes::multi;
+  wanted.lights = has(settings, Layer::light) || settings.passes == Passes::multi;
+  wanted.visibility = has(settings, Layer::visibility) || wanted.passes;
+  wanted.slide_uv = has(settings, Layer::uv);
+  wanted.lux = has(settings, Layer::lux);
+  wanted.geometry = has(settings, Layer::depth) || has(settings, Layer::position) || has(settings, Layer::normal) ||
+                    has(settings, Layer::object) || wanted.passes;
+  wanted.albedo = has(settings, Layer::albedo);
+  return wanted;
+}
+
+}  // namespace render
+}  // namespace laterna

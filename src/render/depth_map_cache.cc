@@ -1,0 +1,66 @@
+#include "render/depth_map_cache.h"
+
+#include <algorithm>
+
+#include "raster/tile_raster.h"
+#include "shade/surface_cut.h"
+
+namespace laterna::render {
+namespace {
+
+bool same_view(const light::ShadowView& a, const light::ShadowView& b) {
+  const Projection& p = a.view.projection;
+  const Projection& q = b.view.projection;
+  return a.width == b.width && a.height == b.height && a.view.pose.position_ws == b.view.pose.position_ws &&
+         a.view.pose.world_from_view_rotation == b.view.pose.world_from_view_rotation &&
+         p.is_orthographic == q.is_orthographic && p.left == q.left && p.right == q.right && p.bottom == q.bottom &&
+         p.top == q.top && p.near == q.near && p.far == q.far;
+}
+
+}  // namespace
+
+bool DepthMapKey::operator==(const DepthMapKey& other) const {
+  return faces == other.faces && casters_revision == other.casters_revision &&
+         std::equal(views.begin(), views.end(), other.views.begin(), other.views.end(), same_view);
+}
+
+shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view, CasterFaces faces) {
+  shadow::DepthMap map(raster::RasterView(shadow_view.view, shadow_view.width, shadow_view.height));
+  const raster::RasterView& view = map.view();
+  raster::BinOptions options;
+  options.cull = faces == CasterFaces::back_only ? raster::CullFaces::front : raster::CullFaces::none;
+  options.required_flags = kCastsShadow;
+  options.blend_as_mask = true;
+  options.pixels = {0, 0, map.width(), map.height()};
+  options.instruction_set = context.instruction_set;
+  const auto bins = context.bins.take();
+  bins->fill(view, context.frame.geometry(), options, context.pool);
+
+  const shade::SurfaceCut cut({&context.frame, &view, Interpolation::perspective, 1}, true, context.instruction_set);
+  const raster::RasteriseDepth rasterise_depth = raster::rasterise_depth_for(context.instruction_set);
+  const auto tiles = static_cast<std::size_t>(map.tiles_x() * map.tiles_y());
+  context.pool.for_each(tiles, [&](std::size_t i, int) {
+    const int x = static_cast<int>(i) % map.tiles_x();
+    const int y = static_cast<int>(i) / map.tiles_x();
+    float* tile = map.tile(x, y);
+    std::fill_n(tile, raster::kTilePixels, view.reversed_far);
+    rasterise_depth({&view, bins->batches(), x, y, 0, 0, &cut}, tile);
+    std::replace(tile, tile + raster::kTilePixels, view.reversed_far, shadow::kNothingSeen);
+  });
+  return map;
+}
+
+DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& key, const DrawContext& context) {
+  const std::lock_guard lock(mutex_);
+  if (entries_.size() <= light) entries_.resize(light + 1);
+  Entry& entry = entries_[light];
+  if (!entry.maps.empty() && entry.key == key) return {entry.maps, 0};
+  entry.maps.clear();
+  for (const light::ShadowView& view : key.views) {
+    entry.maps.push_back(std::make_shared<const shadow::DepthMap>(draw_depth_map(context, view, key.faces)));
+  }
+  entry.key = key;
+  return {entry.maps, static_cast<int>(entry.maps.size())};
+}
+
+}  // namespace laterna::render

@@ -1,0 +1,31 @@
+#include <cmath>
+
+#include "base/elementary.h"
+#include "laterna/render.h"
+
+namespace laterna {
+
+float automatic_exposure(const LayeredImage& image) {
+  const Channel* r = image.find("R");
+  const Channel* g = image.find("G");
+  const Channel* b = image.find("B");
+  const Channel* a = image.find("A");
+  if (r == nullptr || g == nullptr || b == nullptr) return 1;
+  constexpr double kMiddleGrey = 0.18;
+  constexpr double kLeast = 1e-6;  // keeps black from deciding the mean
+  double sum = 0;
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < r->values.size(); ++i) {
+    if (a != nullptr && a->values[i] <= 0) continue;
+    const double luminance = 0.2126 * r->values[i] + 0.7152 * g->values[i] + 0.0722 * b->values[i];
+    if (!std::isfinite(luminance)) continue;
+    sum += logarithm2(kLeast + std::max(luminance, 0.0));
+    ++count;
+  }
+  if (count == 0) return 1;
+  const double mean = exponential2(sum / static_cast<double>(count));
+  if (mean <= 2 * kLeast) return 1;
+  return static_cast<float>(kMiddleGrey / mean);
+}
+
+}  // namespace laterna

@@ -1,0 +1,371 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include "laterna/render.h"
+#include "light/light_plan.h"
+#include "render/camera_views.h"
+#include "render/depth_map_cache.h"
+#include "render/metadata.h"
+#include "render/picture_writer.h"
+#include "render/settings_check.h"
+#include "shadow/ray_traced.h"
+#include "shadow/shadow_map.h"
+
+namespace laterna {
+
+using render::BinsPool;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Set-up triangles of the camera's view are held to about this much memory: larger scenes are drawn in bands.
+constexpr std::size_t kBinMemory = std::size_t{512} << 20U;
+
+int band_count(const frame::Frame& frame, int tile_rows) {
+  const std::size_t bytes = frame.triangle_count() * sizeof(raster::BinnedTriangle);
+  return static_cast<int>(std::clamp<std::size_t>((bytes + kBinMemory - 1) / kBinMemory, 1, static_cast<std::size_t>(tile_rows)));
+}
+
+tl::unexpected<Error> refuse(std::string message) {
+  return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}));
+}
+
+constexpr float kPi32 = 3.14159265F;
+
+// A scene that brings no light of its own is shown by a sun over the viewer's shoulder.
+void add_default_light(Scene& scene) {
+  const bool has_light = std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.light >= 0; });
+  if (has_light || scene.ambient_is_set) return;
+  Light sun;
+  sun.name = "default sun";
+  sun.type = LightType::directional;
+  sun.intensity = kPi32;  // white, square to the light: 1
+  scene.lights.push_back(sun);
+  Node node;
+  node.name = sun.name;
+  node.light = static_cast<int>(scene.lights.size()) - 1;
+  const Pose pose = *Pose::look_at({-0.4, 1, 0.7}, {0, 0, 0}, {0, 1, 0});
+  node.parent_from_node = pose.world_from_view();
+  scene.nodes.push_back(node);
+  scene.ambient = glm::vec3(0.25F);
+  scene.warnings.push_back({{}, {}, "the scene has no light: it is lit by a default sun and a little ambient light"});
+}
+
+class ProgressReport {
+ public:
+  ProgressReport(const Progress& progress, std::size_t steps) : progress_(progress), steps_(steps) {}
+  [[nodiscard]] bool is_cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+  void step() {
+    const std::size_t done = done_.fetch_add(1) + 1;
+    if (!progress_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock.owns_lock()) return;
+    if (!progress_(static_cast<double>(done) / static_cast<double>(steps_))) cancelled_ = true;
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t steps_;
+  std::atomic<std::size_t> done_ = 0;
+  std::atomic<bool> cancelled_ = false;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+struct Renderer::Implementation {
+  Implementation(Scene s, const RendererOptions& options)
+      : scene(std::move(s)),
+        pool(options.threads),
+        set(options.instruction_set.value_or(best_instruction_set())) {}
+
+  // Pictures are decoded and triangles cut into clusters at the same time.
+  Result<void> load() {
+    Result<frame::TextureLibrary> library = frame::TextureLibrary::load(scene, pool);
+    if (!library) return tl::unexpected(std::move(library.error()));
+    textures = std::make_shared<const frame::TextureLibrary>(std::move(*library));
+    meshes = frame::build_clusters(scene, pool);
+    return rebuild();
+  }
+
+  // The frame anew, because what casts shadows has moved.
+  Result<void> rebuild() {
+    Result<frame::Frame> built = frame::Frame::build(scene, textures, meshes, pool);
+    if (!built) return tl::unexpected(std::move(built.error()));
+    frame = std::move(*built);
+    ++casters_revision;
+    const std::lock_guard lock(rays_mutex);
+    rays.reset();
+    return {};
+  }
+
+  // Whether a mesh hangs on the node or below it.
+  [[nodiscard]] bool carries_mesh(int node) const {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+      if (scene.nodes[i].mesh < 0) continue;
+      for (int n = static_cast<int>(i); n >= 0; n = scene.nodes[static_cast<std::size_t>(n)].parent) {
+        if (n == node) return true;
+      }
+    }
+    return false;
+  }
+
+  [[nodiscard]] render::DrawContext draw_context() const { return {frame, pool, bins, set}; }
+
+  std::shared_ptr<const trace::RayScene> ray_scene() const {
+    const std::lock_guard lock(rays_mutex);
+    if (rays == nullptr) rays = std::make_shared<const trace::RayScene>(frame);
+    return rays;
+  }
+
+  std::unique_ptr<shadow::ShadowTechnique> make_technique(const light::PlannedLight& planned, std::size_t index,
+                                                          const raster::RasterView::Ray& ray,
+                                                          RenderStatistics& statistics) const {
+    switch (planned.technique) {
+      case ShadowTechnique::none: return nullptr;
+      case ShadowTechnique::raytraced: return std::make_unique<shadow::RayTracedShadow>(planned, ray_scene());
+      case ShadowTechnique::map: break;
+    }
+    const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces, casters_revision};
+    const render::DepthMapCache::Found found = maps.find(index, key, draw_context());
+    statistics.maps_drawn += found.drawn;
+    statistics.maps_kept += static_cast<int>(found.maps.size()) - found.drawn;
+    RenderStatistics::LightMemory memory = {planned.placed->light->name, static_cast<int>(found.maps.size()), 0};
+    for (const auto& map : found.maps) memory.bytes += map->memory_bytes();
+    statistics.shadow_memory.push_back(memory);
+    return std::make_unique<shadow::ShadowMap>(planned, found.maps, ray, set);
+  }
+
+  // Everything the tiles share, with every shadow technique ready to answer.
+  shade::ShaderJob make_job(const raster::RasterView& view, const RenderSettings& settings, const light::LightPlan& plan,
+                            RenderStatistics& statistics) const {
+    shade::ShaderJob job;
+    job.frame = &frame;
+    job.view = &view;
+    job.reflection.model = settings.shading;
+    job.reflection.phong = scene.phong;
+    for (int i = 0; i < 3; ++i) job.reflection.ambient[i] = scene.ambient[i];
+    job.interpolation = settings.interpolation;
+    job.anisotropy = settings.anisotropy;
+    job.samples_per_pixel = settings.samples;
+    job.passes = settings.passes;
+    job.background = scene.background ? &*scene.background : nullptr;
+    job.wanted = render::wanted_layers(settings);
+    job.instruction_set = set;
+    const raster::RasterView::Ray ray = view.homogeneous_ray();
+    for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+      const light::PlannedLight& planned = plan.lights[i];
+      shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
+      job.lights.push_back({bound, make_technique(planned, i, ray, statistics)});
+      if (job.wanted.lux && settings.shading == ShadingModel::papers) {
+        job.physical_lights.emplace_back(*planned.placed, ray, ShadingModel::phong, settings.anisotropy);
+      }
+    }
+    return job;
+  }
+
+  Scene scene;
+  TaskPool pool;
+  InstructionSet set;
+  std::shared_ptr<const frame::TextureLibrary> textures;
+  frame::ClusteredMeshes meshes;
+  frame::Frame frame;
+  std::uint64_t casters_revision = 0;
+  mutable BinsPool bins;
+  mutable render::DepthMapCache maps;
+  mutable std::mutex rays_mutex;
+  mutable std::shared_ptr<const trace::RayScene> rays;
+};
+
+Renderer::Renderer(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Result<Renderer> Renderer::create(Scene scene, const RendererOptions& options) {
+  if (std::vector<Diagnostic> faults = validate(scene); !faults.empty()) {
+    return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+  }
+  if (Result<void> checked = render::check_options(options); !checked) return tl::unexpected(checked.error());
+  add_default_light(scene);
+  auto implementation = std::make_unique<Implementation>(std::move(scene), options);
+  if (Result<void> built = implementation->load(); !built) return tl::unexpected(std::move(built.error()));
+  return Renderer(std::move(implementation));
+}
+
+const Scene& Renderer::scene() const { return implementation_->scene; }
+int Renderer::threads() const { return implementation_->pool.threads(); }
+InstructionSet Renderer::instruction_set() const { return implementation_->set; }
+
+Result<View> Renderer::camera_view(const std::string& name, int width, int height) const {
+  return render::camera_view(implementation_->frame, name, width, height);
+}
+
+View Renderer::overview(int width, int height) const { return render::overview(implementation_->frame, width, height); }
+
+Result<RenderStatistics> Renderer::render_into(const View& from, const RenderSettings& settings,
+                                               const RenderTarget& target, const Progress& progress) const {
+  const Implementation& self = *implementation_;
+  const Clock::time_point start = Clock::now();
+  if (Result<void> checked = render::check_settings(settings, from); !checked) return tl::unexpected(checked.error());
+  Result<render::PictureWriter> writer = render::PictureWriter::create(settings, target, self.frame);
+  if (!writer) return tl::unexpected(std::move(writer.error()));
+
+  RenderStatistics statistics;
+  const light::LightPlan plan = light::make_light_plan(self.frame, {settings.shadows});
+  statistics.plan_ms = milliseconds_since(start);
+
+  const raster::RasterView view(from, settings.width, settings.height);
+  const Clock::time_point shadow_start = Clock::now();
+  shade::ShaderJob job = self.make_job(view, settings, plan, statistics);
+  statistics.shadow_ms = milliseconds_since(shadow_start);
+
+  const int tiles_x = (settings.width + raster::kTileSide - 1) / raster::kTileSide;
+  const int tiles_y = (settings.height + raster::kTileSide - 1) / raster::kTileSide;
+  const int bands = band_count(self.frame, tiles_y);
+  ProgressReport report(progress, static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_y));
+  std::vector<std::unique_ptr<shade::TileShader>> shaders(static_cast<std::size_t>(self.pool.threads()));
+  const auto bins = self.bins.take();
+
+  raster::BinOptions options;
+  options.cull = raster::CullFaces::single_sided;
+  options.required_flags = kVisible;
+  options.instruction_set = self.set;
+  for (const shade::SampleOffset& offset : shade::sample_offsets(settings.samples)) {
+    options.sample_reach = std::max({options.sample_reach, std::abs(offset.x), std::abs(offset.y)});
+  }
+  for (int band = 0; band < bands && !report.is_cancelled(); ++band) {
+    const int first_row = tiles_y * band / bands;
+    const int end_row = tiles_y * (band + 1) / bands;
+    const Clock::time_point bin_start = Clock::now();
+    options.pixels = {0, first_row * raster::kTileSide, settings.width,
+                      std::min(end_row * raster::kTileSide, settings.height)};
+    bins->fill(view, self.frame.geometry(), options, self.pool);
+    job.batches = bins->batches();
+    statistics.triangles += bins->statistics().triangles;
+    statistics.triangles_drawn += bins->statistics().triangles_binned;
+    statistics.bin_ms += milliseconds_since(bin_start);
+
+    const Clock::time_point shade_start = Clock::now();
+    self.pool.for_each(static_cast<std::size_t>(tiles_x * (end_row - first_row)), [&](std::size_t i, int worker) {
+      if (report.is_cancelled()) return;
+      auto& shader = shaders[static_cast<std::size_t>(worker)];
+      if (shader == nullptr) shader = std::make_unique<shade::TileShader>(job);
+      const int x = static_cast<int>(i) % tiles_x;
+      const int y = first_row + static_cast<int>(i) / tiles_x;
+      writer->write(x, y, shader->shade(x, y));
+      report.step();
+    });
+    statistics.shade_ms += milliseconds_since(shade_start);
+  }
+  if (report.is_cancelled()) return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
+  statistics.total_ms = milliseconds_since(start);
+  return statistics;
+}
+
+std::vector<std::string> Renderer::channel_names(const RenderSettings& settings) const {
+  std::vector<std::string> names;
+  for (const render::PictureChannel& channel : render::picture_channels(settings, implementation_->frame)) {
+    names.push_back(channel.name);
+  }
+  return names;
+}
+
+Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& settings, const Progress& progress,
+                                      RenderStatistics* statistics) const {
+  if (Result<void> checked = render::check_settings(settings, view); !checked) return tl::unexpected(checked.error());
+  LayeredImage image;
+  image.width = settings.width;
+  image.height = settings.height;
+  RenderTarget target;
+  const auto stride = static_cast<std::size_t>(settings.width);
+  for (const std::string& name : channel_names(settings)) {
+    image.channels.push_back({name, std::vector<float>(stride * static_cast<std::size_t>(settings.height))});
+  }
+  for (Channel& channel : image.channels) target.channels.push_back({channel.name, channel.values.data(), stride});
+  Result<RenderStatistics> done = render_into(view, settings, target, progress);
+  if (!done) return tl::unexpected(std::move(done.error()));
+  if (statistics != nullptr) *statistics = *done;
+  image.metadata = render::describe(settings, view, implementation_->frame);
+  return image;
+}
+
+Result<void> Renderer::set_transform(int node, const glm::dmat4& parent_from_node) {
+  Implementation& self = *implementation_;
+  if (node < 0 || static_cast<std::size_t>(node) >= self.scene.nodes.size()) {
+    return refuse("the scene has no node " + std::to_string(node));
+  }
+  glm::dmat4& place = self.scene.nodes[static_cast<std::size_t>(node)].parent_from_node;
+  const glm::dmat4 before = place;
+  place = parent_from_node;
+  std::vector<Diagnostic> faults = validate(self.scene);
+  if (faults.empty() && !self.carries_mesh(node)) {
+    self.frame.place_lights_and_cameras(self.scene);
+    return {};
+  }
+  Result<void> built = faults.empty() ? self.rebuild() : tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+  if (!built) place = before;
+  return built;
+}
+
+Result<void> Renderer::set_light(int light, Light value) {
+  Implementation& self = *implementation_;
+  if (light < 0 || static_cast<std::size_t>(light) >= self.scene.lights.size()) {
+    return refuse("the scene has no light " + std::to_string(light));
+  }
+  Light& place = self.scene.lights[static_cast<std::size_t>(light)];
+  std::swap(place, value);
+  if (std::vector<Diagnostic> faults = validate(self.scene); !faults.empty()) {
+    std::swap(place, value);
+    return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+  }
+  if (place.slide >= 0 && self.textures->find(place.slide, frame::slide_use(place)) == nullptr) return self.load();
+  self.frame.place_lights_and_cameras(self.scene);
+  return {};
+}
+
+Result<View> Renderer::light_view(const std::string& name) const {
+  const light::LightPlan plan = light::make_light_plan(implementation_->frame, {ShadowTechnique::map});
+  for (const light::PlannedLight& planned : plan.lights) {
+    if (planned.placed->light->name != name) continue;
+    if (planned.shadow_views.size() == 1) return planned.shadow_views[0].view;
+    return refuse("light \"" + name + "\" shines all round: it has no one view");
+  }
+  return refuse("the scene has no light \"" + name + "\"");
+}
+
+Result<LayeredImage> Renderer::depth_map(const std::string& name, int face) const {
+  const Implementation& self = *implementation_;
+  const light::LightPlan plan = light::make_light_plan(self.frame, {ShadowTechnique::map});
+  for (const light::PlannedLight& planned : plan.lights) {
+    if (planned.placed->light->name != name) continue;
+    if (face < 0 || static_cast<std::size_t>(face) >= planned.shadow_views.size()) {
+      return refuse("light \"" + name + "\" has " +
+                                                                            std::to_string(planned.shadow_views.size()) +
+                                                                            " depth maps; there is no number " + std::to_string(face));
+    }
+    const shadow::DepthMap map = render::draw_depth_map(
+        self.draw_context(), planned.shadow_views[static_cast<std::size_t>(face)], planned.settings.caster_faces);
+    LayeredImage image;
+    image.width = map.width();
+    image.height = map.height();
+    image.channels.push_back({"Z", {}});
+    std::vector<float>& values = image.channels[0].values;
+    values.reserve(static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height()));
+    for (int y = 0; y < map.height(); ++y) {
+      for (int x = 0; x < map.width(); ++x) values.push_back(static_cast<float>(map.distance(x, y)));
+    }
+    return image;
+  }
+  return refuse("the scene has no light \"" + name + "\"");
+}
+
+}  // namespace laterna

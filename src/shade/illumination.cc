@@ -1,0 +1,50 @@
+#include "shade/illumination.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/elementary.h"
+
+namespace laterna::shade {
+namespace {
+
+Wrap wrap_of(Outside outside) {
+  switch (outside) {
+    case Outside::repeat: return Wrap::repeat;
+    case Outside::mirror: return Wrap::mirror;
+    default: return Wrap::clamp;
+  }
+}
+
+}  // namespace
+
+BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterView::Ray& ray, ShadingModel model,
+                       int most_probes)
+    : light(placed.light),
+      inverse_range(std::isinf(placed.light->range) ? 0.0F : static_cast<float>(1 / placed.light->range)),
+      is_papers(model == ShadingModel::papers),
+      homogeneous(shadow::homogeneous_row(ray)),
+      is_orthographic(placed.view.projection.is_orthographic),
+      slide(placed.slide),
+      anisotropy(most_probes) {
+  for (int i = 0; i < 3; ++i) {
+    color[i] = static_cast<float>(light->color[i] * (is_papers ? 1.0 : placed.intensity));
+    position_ws[i] = static_cast<float>(placed.pose.position_ws[i]);
+    forward_ws[i] = static_cast<float>(placed.pose.forward_ws()[i]);
+  }
+  if (light->type == LightType::spot) {
+    // KHR_lights_punctual, "Inner and Outer Cone Angles".
+    const double inner = cosine(light->inner_cone.in_radians());
+    const double outer = cosine(light->outer_cone.in_radians());
+    const double scale = 1 / std::max(0.001, inner - outer);
+    cone_scale = static_cast<float>(scale);
+    cone_offset = static_cast<float>(-outer * scale);
+  }
+  if (light->type == LightType::projector) {
+    const glm::dmat4 m = glm::transpose(placed.view.image_from_world());
+    slide_position = {shadow::ProjectedRow(m[0], ray), shadow::ProjectedRow(m[1], ray), shadow::ProjectedRow(m[3], ray)};
+    slide_sampler.wrap_u = slide_sampler.wrap_v = wrap_of(light->outside);
+  }
+}
+
+}  // namespace laterna::shade

@@ -1,0 +1,352 @@
+// Light at surface points.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/illumination.simd.cc"
+#include "base/simd.h"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <limits>
+
+#include "base/vectors-inl.h"
+#include "image/texture_lookup-inl.h"
+#include "shade/illumination.h"
+#include "shadow/projected_view-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace laterna::shade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
+using image::HWY_NAMESPACE::Footprint;
+using image::HWY_NAMESPACE::LookUp;
+using image::HWY_NAMESPACE::Texel4;
+using shadow::HWY_NAMESPACE::Evaluate;
+using shadow::kGroupSize;
+
+template <class Samples>
+HWY_INLINE Vector3 Load3(const Samples& x, const Samples& y, const Samples& z, std::size_t i) {
+  const FloatTag d;
+  return {hn::Load(d, x.data() + i), hn::Load(d, y.data() + i), hn::Load(d, z.data() + i)};
+}
+
+HWY_INLINE FloatMask LoadBits(std::uint16_t bits, std::size_t k) {
+  const std::uint16_t shifted = static_cast<std::uint16_t>(bits >> k);
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(shifted & 255U), static_cast<std::uint8_t>(shifted >> 8U)};
+  return hn::LoadMaskBits(FloatTag(), bytes);
+}
+
+HWY_INLINE std::uint16_t StoreBits(FloatMask mask, std::size_t k) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(FloatTag(), mask, bytes);
+  return static_cast<std::uint16_t>((bytes[0] | unsigned{bytes[1]} << 8U) << k);
+}
+
+// ---------------------------------------------------------------------------------------------- arriving light
+
+// What a light sends to N points: colour, direction, and where it shines at all.
+struct Arriving {
+  Vector3 color, to_light;
+  FloatMask shines;
+};
+
+// Relative to the distance along the axis `along` and the true distance `distance` (row 19).
+HWY_INLINE FloatVector AttenuationAt(const BoundLight& light, FloatVector along, FloatVector distance) {
+  const FloatTag d;
+  const auto one = Splat(1.0F);
+  const auto inverse_square = [&](FloatVector length) HWY_ATTR {
+    return one / hn::Max(length * length, Splat(1e-12F));
+  };
+  switch (light.light->attenuation) {
+    case Attenuation::none: return one;
+    case Attenuation::inverse_square: return light.is_papers ? one : inverse_square(distance);
+    case Attenuation::gltf_windowed: {
+      if (light.is_papers) return one;
+      const auto ratio = distance * Splat(light.inverse_range);
+      const auto squared = ratio * ratio;
+      return Saturate(one - squared * squared) * inverse_square(distance);
+    }
+    case Attenuation::linear: return Saturate(one - along * Splat(light.inverse_range));
+    case Attenuation::custom: break;
+  }
+  alignas(64) float values[kLanes];
+  hn::Store(along, d, values);
+  for (float& value : values) value = light.light->custom_attenuation(value);
+  return hn::Load(d, values);
+}
+
+HWY_INLINE Arriving FromAfar(const BoundLight& light) {
+  const float to_light[3] = {-light.forward_ws[0], -light.forward_ws[1], -light.forward_ws[2]};
+  return {Splat3(light.color), Splat3(to_light), Splat(0.0F) == Splat(0.0F)};
+}
+
+HWY_INLINE Arriving FromPoint(const BoundLight& light, const Vector3& p) {
+  const Vector3 from_light = p - Splat3(light.position_ws);
+  const auto distance = hn::Sqrt(Dot(from_light, from_light));
+  const auto is_there = distance <= Splat(1e-6F);
+  const auto inverse = hn::IfThenZeroElse(is_there, Splat(1.0F) / hn::IfThenElse(is_there, Splat(1.0F), distance));
+  const Vector3 direction = from_light * inverse;
+  auto intensity = AttenuationAt(light, light.light->type == LightType::point
+                                            ? distance
+                                            : Dot(from_light, Splat3(light.forward_ws)), distance);
+  if (light.light->type == LightType::spot) {
+    const auto cosine = Dot(direction, Splat3(light.forward_ws));
+    const auto angular = Saturate(cosine * Splat(light.cone_scale) + Splat(light.cone_offset));
+    intensity = intensity * (angular * angular);
+  }
+  return {Splat3(light.color) * intensity, direction * Splat(-1.0F), intensity > Splat(0.0F)};
+}
+
+// Slide coordinates with their change from pixel to pixel, and whether the lens is behind the point.
+struct SlidePoint {
+  Footprint footprint;
+  FloatMask is_ahead;
+};
+
+HWY_INLINE SlidePoint FindSlidePoint(const BoundLight& light, const shadow::SurfaceSamples& samples, std::size_t i) {
+  const FloatTag d;
+  const auto x = hn::Load(d, samples.x.data() + i), y = hn::Load(d, samples.y.data() + i),
+             q = hn::Load(d, samples.q.data() + i);
+  const auto q_dx = hn::Load(d, samples.dq_dx.data() + i), q_dy = hn::Load(d, samples.dq_dy.data() + i);
+  const shadow::ProjectedView& v = light.slide_position;
+  // Orthographic: w^l is 1, and what is divided by is the samples' own fourth coordinate: equation 8 (row 4).
+  const shadow::ProjectedRow& divisor_row = light.is_orthographic ? light.homogeneous : v.divisor;
+  const auto S = Evaluate(v.x, x, y, q), T = Evaluate(v.y, x, y, q), W = Evaluate(divisor_row, x, y, q);
+  const auto h = Evaluate(light.homogeneous, x, y, q);
+  SlidePoint point;
+  point.is_ahead = W > h * Splat(1e-6F);
+  const auto inverse = Splat(1.0F) / hn::IfThenElse(point.is_ahead, W, h);
+  Footprint& f = point.footprint;
+  f.u = S * inverse;
+  f.v = T * inverse;
+  const auto slope = [&](const shadow::ProjectedRow& row, float at, FloatVector dq) HWY_ATTR {
+    return Splat(at) + Splat(row.at_q) * dq;
+  };
+  const auto w_dx = slope(divisor_row, divisor_row.at_x, q_dx), w_dy = slope(divisor_row, divisor_row.at_y, q_dy);
+  f.du_dx = (slope(v.x, v.x.at_x, q_dx) - f.u * w_dx) * inverse;
+  f.dv_dx = (slope(v.y, v.y.at_x, q_dx) - f.v * w_dx) * inverse;
+  f.du_dy = (slope(v.x, v.x.at_y, q_dy) - f.u * w_dy) * inverse;
+  f.dv_dy = (slope(v.y, v.y.at_y, q_dy) - f.v * w_dy) * inverse;
+  return point;
+}
+
+HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::SurfaceSamples& samples,
+                                  const SlideCoordinates* coordinates, Irradiance& irradiance, std::size_t i) {
+  const FloatTag d;
+  const auto zero = Splat(0.0F), one = Splat(1.0F);
+  SlidePoint point = FindSlidePoint(light, samples, i);
+  Footprint& f = point.footprint;
+  if (coordinates != nullptr) {
+    const auto valid = LoadBits(coordinates->valid[i / kGroupSize], i % kGroupSize);
+    f.u = hn::IfThenElse(valid, hn::Load(d, coordinates->s.data() + i), f.u);
+    f.v = hn::IfThenElse(valid, hn::Load(d, coordinates->t.data() + i), f.v);
+  }
+  const auto in_frame = hn::And(hn::And(f.u >= zero, f.u <= one), hn::And(f.v >= zero, f.v <= one));
+  auto shines = point.is_ahead;
+  if (light.light->outside == Outside::black) shines = hn::And(shines, in_frame);
+  const auto nan = Splat(std::numeric_limits<float>::quiet_NaN());
+  hn::Store(hn::IfThenElse(shines, f.u, nan), d, irradiance.slide_s.data() + i);
+  hn::Store(hn::IfThenElse(shines, f.v, nan), d, irradiance.slide_t.data() + i);
+  if (hn::AllFalse(d, shines)) return {Splat3(light.color), Splat3(light.forward_ws), shines};
+
+  const Vector3 from_light =
+      Load3(samples.x_ws, samples.y_ws, samples.z_ws, i) - Splat3(light.position_ws);
+  const auto along = Dot(from_light, Splat3(light.forward_ws));
+  Arriving arriving;
+  FloatVector intensity;
+  if (light.is_orthographic) {
+    const float to_light[3] = {-light.forward_ws[0], -light.forward_ws[1], -light.forward_ws[2]};
+    arriving.to_light = Splat3(to_light);
+    // Parallel light does not thin out.
+    const bool fades = light.light->attenuation == Attenuation::linear || light.light->attenuation == Attenuation::custom;
+    intensity = fades ? AttenuationAt(light, along, along) : one;
+  } else {
+    const auto distance = hn::Sqrt(Dot(from_light, from_light));
+    const auto safe = hn::Max(distance, Splat(1e-6F));
+    arriving.to_light = from_light * (Splat(-1.0F) / safe);
+    if (light.light->profile == BeamProfile::uniform_candela || light.is_papers) {
+      intensity = AttenuationAt(light, along, safe);
+    } else {
+      // Flat field: a wall square to the beam at distance z gets I f(z) everywhere, so a surface square to the ray
+      // gets I f(z) / cos θ.
+      const auto safe_along = hn::Max(along, Splat(1e-6F));
+      intensity = AttenuationAt(light, along, safe_along) * (safe / safe_along);
+    }
+  }
+  arriving.color = Splat3(light.color) * intensity;
+  if (light.slide != nullptr) {
+    const Texel4 t = LookUp<false>(*light.slide, light.slide_sampler, light.anisotropy, f);
+    arriving.color = {arriving.color.x * t.r, arriving.color.y * t.g, arriving.color.z * t.b};
+  }
+  arriving.shines = shines;
+  return arriving;
+}
+
+void find_irradiance(const BoundLight& light, const shadow::SurfaceSamples& samples, const SurfacePoints& points,
+                     const SlideCoordinates* coordinates, Irradiance& irradiance) {
+  const FloatTag d;
+  const auto zero = Splat(0.0F);
+  for (std::size_t group = 0; group < samples.group_count; ++group) {
+    irradiance.lit[group] = 0;
+    for (std::size_t k = 0; k < kGroupSize; k += kLanes) {
+      const std::size_t i = group * kGroupSize + k;
+      Arriving arriving;
+      switch (light.light->type) {
+        case LightType::directional: arriving = FromAfar(light); break;
+        case LightType::projector: arriving = FromProjector(light, samples, coordinates, irradiance, i); break;
+        default: arriving = FromPoint(light, Load3(samples.x_ws, samples.y_ws, samples.z_ws, i)); break;
+      }
+      const Vector3 normal = Load3(points.normal_x_ws, points.normal_y_ws, points.normal_z_ws, i);
+      const auto cosine = light.is_papers ? Splat(1.0F) : Dot(normal, arriving.to_light);
+      const auto is_lit = hn::And(arriving.shines, cosine > zero);
+      hn::Store(hn::IfThenElseZero(arriving.shines, arriving.color.x), d, irradiance.r.data() + i);
+      hn::Store(hn::IfThenElseZero(arriving.shines, arriving.color.y), d, irradiance.g.data() + i);
+      hn::Store(hn::IfThenElseZero(arriving.shines, arriving.color.z), d, irradiance.b.data() + i);
+      hn::Store(arriving.to_light.x, d, irradiance.to_light_x_ws.data() + i);
+      hn::Store(arriving.to_light.y, d, irradiance.to_light_y_ws.data() + i);
+      hn::Store(arriving.to_light.z, d, irradiance.to_light_z_ws.data() + i);
+      hn::Store(cosine, d, irradiance.cosine.data() + i);
+      irradiance.lit[group] = static_cast<std::uint16_t>(irradiance.lit[group] | StoreBits(is_lit, k));
+    }
+    irradiance.lit[group] = static_cast<std::uint16_t>(irradiance.lit[group] & samples.active[group]);
+  }
+}
+
+// ---------------------------------------------------------------------------------------------- reflected light
+
+HWY_INLINE void Store3(const Vector3& v, Radiance& radiance, std::size_t i) {
+  const FloatTag d;
+  hn::Store(v.x, d, radiance.r.data() + i);
+  hn::Store(v.y, d, radiance.g.data() + i);
+  hn::Store(v.z, d, radiance.b.data() + i);
+}
+
+HWY_INLINE Vector3 Multiply(const Vector3& a, const Vector3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+void find_ambient(const ReflectionSettings& settings, const frame::Surface& surface, std::size_t groups,
+                  const SurfacePoints& points, Radiance& radiance) {
+  const FloatTag d;
+  for (std::size_t i = 0; i < groups * kGroupSize; i += kLanes) {
+    const Vector3 base = Load3(points.base_r, points.base_g, points.base_b, i);
+    if (surface.unlit) {
+      Store3(base, radiance, i);
+      continue;
+    }
+    const Vector3 ambient = Splat3(settings.ambient) * hn::Load(d, points.occlusion.data() + i);
+    const Vector3 emissive = Load3(points.emissive_r, points.emissive_g, points.emissive_b, i);
+    Store3(Multiply(base, ambient) + emissive, radiance, i);
+  }
+}
+
+// Everything a reflection model asks about N samples of one light.
+struct Incidence {
+  Vector3 base, irradiance, normal, to_light, to_eye;
+  FloatVector cosine, metallic, roughness;
+};
+
+HWY_INLINE Vector3 ReflectPapers(const Incidence& in) { return Multiply(in.base, in.irradiance); }
+
+// x^exponent; powers of two by squaring, which is exact to a few roundings.
+HWY_INLINE FloatVector Highlight(FloatVector x, float exponent) {
+  const auto whole = static_cast<unsigned>(exponent);
+  if (exponent >= 1 && exponent <= 1024 && static_cast<float>(whole) == exponent && (whole & (whole - 1)) == 0) {
+    auto power = x;
+    for (unsigned n = whole; n > 1; n /= 2) power = power * power;
+    return power;
+  }
+  return Power(x, Splat(exponent));
+}
+
+HWY_INLINE Vector3 ReflectPhong(const Incidence& in, const std::optional<PhongHighlight>& highlight) {
+  const Vector3 half = Normalised(in.to_eye + in.to_light);
+  const auto n_h = hn::Max(Dot(in.normal, half), Splat(0.0F));
+  if (highlight) {
+    const auto specular = Splat(highlight->specular) * Highlight(n_h, highlight->shininess);
+    return Multiply(in.irradiance, in.base * in.cosine + Vector3{specular, specular, specular});
+  }
+  // From metallic-roughness: the exponent that gives Blinn's lobe the width of GGX with the same roughness
+  // (p = 2/α² − 2, α = roughness²), and glTF's reflectance at normal incidence.
+  const auto one = Splat(1.0F);
+  const auto squared = in.roughness * in.roughness;
+  const auto alpha_squared = hn::Max(squared * squared, Splat(1e-4F));
+  const auto exponent = hn::Max(Splat(2.0F) / alpha_squared - Splat(2.0F), one);
+  const auto lobe = Power(n_h, exponent);
+  const auto dielectric = Splat(0.04F);
+  const Vector3 reflectance = {dielectric + (in.base.x - dielectric) * in.metallic,
+                               dielectric + (in.base.y - dielectric) * in.metallic,
+                               dielectric + (in.base.z - dielectric) * in.metallic};
+  const Vector3 diffuse = in.base * ((one - in.metallic) * in.cosine);
+  return Multiply(in.irradiance, diffuse + reflectance * lobe);
+}
+
+// glTF 2.0, appendix B: GGX with height-correlated Smith shadowing, Schlick's Fresnel term, Lambert beneath.
+HWY_INLINE Vector3 ReflectPbr(const Incidence& in) {
+  const auto one = Splat(1.0F), zero = Splat(0.0F);
+  const auto inverse_pi = Splat(0.318309886F);
+  const Vector3 half = Normalised(in.to_eye + in.to_light);
+  const auto n_l = Saturate(in.cosine);
+  const auto n_v = Saturate(Dot(in.normal, in.to_eye));
+  const auto n_h = Saturate(Dot(in.normal, half));
+  const auto v_h = Saturate(Dot(in.to_eye, half));
+  // A perfect mirror would show a point light as a point; the least roughness keeps the lobe finite.
+  const auto alpha = hn::Max(in.roughness * in.roughness, Splat(1e-3F));
+  const auto a2 = alpha * alpha;
+  const auto t = n_h * n_h * (a2 - one) + one;
+  const auto distribution = a2 * inverse_pi / hn::Max(t * t, Splat(1e-12F));
+  const auto smith = n_l * hn::Sqrt(n_v * n_v * (one - a2) + a2) + n_v * hn::Sqrt(n_l * n_l * (one - a2) + a2);
+  const auto visibility = hn::IfThenElseZero(smith > zero, Splat(0.5F) / hn::Max(smith, Splat(1e-12F)));
+  const auto m = one - v_h;
+  const auto m2 = m * m;
+  const auto fresnel = m2 * m2 * m;
+  const auto specular = distribution * visibility;
+  const auto channel = [&](FloatVector base) HWY_ATTR {
+    const auto f0 = Splat(0.04F) + (base - Splat(0.04F)) * in.metallic;
+    const auto f = f0 + (one - f0) * fresnel;
+    const auto diffuse = (one - f) * (base * (one - in.metallic)) * inverse_pi;
+    return (diffuse + f * specular) * n_l;
+  };
+  return Multiply(in.irradiance, {channel(in.base.x), channel(in.base.y), channel(in.base.z)});
+}
+
+void reflect(const ReflectionSettings& settings, std::size_t groups, const SurfacePoints& points,
+             const Irradiance& irradiance, const float* alpha, bool add, Radiance& radiance) {
+  const FloatTag d;
+  const auto zero = Splat(0.0F);
+  const Vector3 nothing = {zero, zero, zero};
+  for (std::size_t group = 0; group < groups; ++group) {
+    for (std::size_t k = 0; k < kGroupSize; k += kLanes) {
+      const std::size_t i = group * kGroupSize + k;
+      const auto is_lit = LoadBits(irradiance.lit[group], k);
+      if (hn::AllFalse(d, is_lit)) {
+        if (!add) Store3(nothing, radiance, i);
+        continue;
+      }
+      Incidence in;
+      in.base = Load3(points.base_r, points.base_g, points.base_b, i);
+      in.irradiance = Load3(irradiance.r, irradiance.g, irradiance.b, i) * hn::Load(d, alpha + i);
+      in.normal = Load3(points.normal_x_ws, points.normal_y_ws, points.normal_z_ws, i);
+      in.to_light = Load3(irradiance.to_light_x_ws, irradiance.to_light_y_ws, irradiance.to_light_z_ws, i);
+      in.to_eye = Load3(points.to_eye_x_ws, points.to_eye_y_ws, points.to_eye_z_ws, i);
+      in.cosine = hn::Load(d, irradiance.cosine.data() + i);
+      in.metallic = hn::Load(d, points.metallic.data() + i);
+      in.roughness = hn::Load(d, points.roughness.data() + i);
+      Vector3 out;
+      switch (settings.model) {
+        case ShadingModel::papers: out = ReflectPapers(in); break;
+        case ShadingModel::phong: out = ReflectPhong(in, settings.phong); break;
+        case ShadingModel::pbr: out = ReflectPbr(in); break;
+      }
+      out = IfThenElse3(is_lit, out, nothing);
+      Store3(add ? Load3(radiance.r, radiance.g, radiance.b, i) + out : out, radiance, i);
+    }
+  }
+}
+
+}  // namespace laterna::shade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace laterna::shade {
+LATERNA_KERNEL_TABLE(find_irradiance)
+LATERNA_KERNEL_TABLE(find_ambient)
+LATERNA_KERNEL_TABLE(reflect)
+}  // namespace laterna::shade
+#endif

@@ -1,0 +1,161 @@
+// The corners of N triangles: positions and attributes, interpolated at N samples.
+#if defined(LATERNA_SHADE_TRIANGLE_CORNERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LATERNA_SHADE_TRIANGLE_CORNERS_INL_H_
+#undef LATERNA_SHADE_TRIANGLE_CORNERS_INL_H_
+#else
+#define LATERNA_SHADE_TRIANGLE_CORNERS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "base/vectors-inl.h"
+#include "frame/frame.h"
+#include "raster/raster_view.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace laterna::shade::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
+
+// Values at the three corners.
+struct CornerValues {
+  FloatVector a, b, c;
+};
+struct CornerVectors {
+  Vector3 a, b, c;
+};
+
+// Weights of corners b and c (a has the rest), and their change from one pixel to the next.
+struct Weights {
+  FloatVector b, c;
+  FloatVector db_dx, db_dy, dc_dx, dc_dy;
+};
+
+struct Interpolated {
+  FloatVector value, d_dx, d_dy;
+};
+
+HWY_INLINE FloatVector Interpolate(const CornerValues& v, const Weights& w) {
+  return v.a + ((v.b - v.a) * w.b + (v.c - v.a) * w.c);
+}
+HWY_INLINE Interpolated InterpolateWithSlope(const CornerValues& v, const Weights& w) {
+  const auto b = v.b - v.a, c = v.c - v.a;
+  return {v.a + (b * w.b + c * w.c), b * w.db_dx + c * w.dc_dx, b * w.db_dy + c * w.dc_dy};
+}
+HWY_INLINE Vector3 Interpolate(const CornerVectors& v, const Weights& w) {
+  const Vector3 b = v.b - v.a, c = v.c - v.a;
+  return v.a + (b * w.b + c * w.c);
+}
+
+// Reads corners. Where all lanes lie on one triangle (kUniform), as most do, each value is loaded once; otherwise it
+// is gathered. Both give the same numbers.
+template <bool kUniform>
+class TriangleCorners {
+ public:
+  TriangleCorners(const frame::Frame& frame, const TriangleId* ids) : frame_(frame) {
+    if constexpr (kUniform) {
+      const std::uint32_t packed = frame.corners[*ids];
+      cluster_ = cluster_of(*ids);
+      first_ = frame.clusters[cluster_].first_vertex;
+      for (unsigned i = 0; i < 3; ++i) local_[i] = packed >> (8 * i) & 255U;
+    } else {
+      const IntTag di;
+      const UintTag du;
+      const auto id = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(ids));
+      clusters_ = hn::BitCast(di, hn::ShiftRight<kTriangleBits>(hn::BitCast(du, id)));
+      const auto packed = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(frame.corners.data()), id);
+      const auto byte = SplatInt(255);
+      locals_[0] = hn::And(packed, byte);
+      locals_[1] = hn::And(hn::ShiftRight<8>(packed), byte);
+      locals_[2] = hn::And(hn::ShiftRight<16>(packed), byte);
+      static_assert(sizeof(Cluster) % sizeof(std::int32_t) == 0 && offsetof(Cluster, first_vertex) == 0);
+      firsts_ = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(frame.clusters.data()),
+                                clusters_ * SplatInt(sizeof(Cluster) / sizeof(std::int32_t)));
+    }
+  }
+
+  HWY_INLINE CornerVectors Positions() const {
+    return At3(frame_.x_ws.data(), frame_.y_ws.data(), frame_.z_ws.data(), First());
+  }
+
+  // Index of a stream's first vertex for each lane's cluster, and whether the cluster has that stream.
+  struct Stream {
+    std::conditional_t<kUniform, std::uint32_t, IntVector> first;
+    std::conditional_t<kUniform, bool, FloatMask> present;
+    [[nodiscard]] HWY_INLINE bool IsMissing() const {
+      if constexpr (kUniform) {
+        return !present;
+      } else {
+        return hn::AllFalse(FloatTag(), present);
+      }
+    }
+    // `value` where the stream is there, `otherwise` where it is not.
+    HWY_INLINE FloatVector OrElse(FloatVector value, FloatVector otherwise) const {
+      if constexpr (kUniform) {
+        return value;
+      } else {
+        return hn::IfThenElse(present, value, otherwise);
+      }
+    }
+  };
+  // `field`: which word of ClusterStreams.
+  HWY_INLINE Stream StreamAt(std::size_t field) const {
+    static_assert(sizeof(frame::ClusterStreams) % sizeof(std::uint32_t) == 0);
+    constexpr std::size_t kWords = sizeof(frame::ClusterStreams) / sizeof(std::uint32_t);
+    const auto* words = reinterpret_cast<const std::uint32_t*>(frame_.streams.data());
+    if constexpr (kUniform) {
+      const std::uint32_t first = words[cluster_ * kWords + field];
+      return {first, first != frame::kNoStream};
+    } else {
+      const IntTag di;
+      const auto first = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(words),
+                                         clusters_ * SplatInt(kWords) + SplatInt(static_cast<std::int32_t>(field)));
+      const auto missing = first == SplatInt(-1);
+      // Lanes without the stream read its beginning, and their value is not used.
+      return {hn::IfThenZeroElse(missing, first), hn::RebindMask(FloatTag(), hn::Not(missing))};
+    }
+  }
+
+  template <class First>
+  HWY_INLINE CornerValues At(const float* values, const First& first) const {
+    if constexpr (kUniform) {
+      return {Splat(values[first + local_[0]]), Splat(values[first + local_[1]]), Splat(values[first + local_[2]])};
+    } else {
+      const FloatTag d;
+      return {hn::GatherIndex(d, values, first + locals_[0]), hn::GatherIndex(d, values, first + locals_[1]),
+              hn::GatherIndex(d, values, first + locals_[2])};
+    }
+  }
+  template <class First>
+  HWY_INLINE CornerVectors At3(const float* xs, const float* ys, const float* zs, const First& first) const {
+    const CornerValues x = At(xs, first), y = At(ys, first), z = At(zs, first);
+    return {{x.a, y.a, z.a}, {x.b, y.b, z.b}, {x.c, y.c, z.c}};
+  }
+
+ private:
+  HWY_INLINE auto First() const {
+    if constexpr (kUniform) {
+      return first_;
+    } else {
+      return firsts_;
+    }
+  }
+
+  struct Nothing {};
+  const frame::Frame& frame_;
+  std::conditional_t<kUniform, std::uint32_t, Nothing> cluster_{}, first_{};
+  std::conditional_t<kUniform, std::array<std::uint32_t, 3>, Nothing> local_{};
+  std::conditional_t<kUniform, Nothing, IntVector> clusters_{}, firsts_{};
+  std::conditional_t<kUniform, Nothing, std::array<IntVector, 3>> locals_{};
+};
+
+constexpr std::size_t kNormalField = 0, kUvField = 1, kColorField = 3, kTangentField = 4;
+static_assert(offsetof(frame::ClusterStreams, normal) == kNormalField * sizeof(std::uint32_t));
+static_assert(offsetof(frame::ClusterStreams, uv) == kUvField * sizeof(std::uint32_t));
+static_assert(offsetof(frame::ClusterStreams, color) == kColorField * sizeof(std::uint32_t));
+static_assert(offsetof(frame::ClusterStreams, tangent) == kTangentField * sizeof(std::uint32_t));
+
+}  // namespace laterna::shade::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,55 @@
+// What a light sees: the nearest reversed depth at every texel.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "base/aligned_vector.h"
+#include "raster/raster_view.h"
+#include "raster/triangle_bins.h"
+
+namespace laterna::shadow {
+
+/// Texel of a depth map in which the light sees nothing.
+inline constexpr float kNothingSeen = -std::numeric_limits<float>::max();
+
+/// Texels are stored in tiles of 64 × 64 and blocks of 4 × 4, as they are rasterised: a 2 × 2 filter mostly stays in
+/// one cache line. Values are reversed depths of `view` (1/distance in a perspective view), kNothingSeen where nothing
+/// is; distance() gives metres along the light's axis.
+class DepthMap {
+ public:
+  DepthMap() = default;
+  explicit DepthMap(const raster::RasterView& view)
+      : view_(view),
+        tiles_x_((view.width + raster::kTileSide - 1) / raster::kTileSide),
+        tiles_y_((view.height + raster::kTileSide - 1) / raster::kTileSide),
+        texels_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_) * raster::kTilePixels) {}
+
+  [[nodiscard]] const raster::RasterView& view() const { return view_; }
+  [[nodiscard]] int width() const { return view_.width; }
+  [[nodiscard]] int height() const { return view_.height; }
+  [[nodiscard]] int tiles_x() const { return tiles_x_; }
+  [[nodiscard]] int tiles_y() const { return tiles_y_; }
+  [[nodiscard]] float* tile(int x, int y) {
+    return texels_.data() + static_cast<std::size_t>(y * tiles_x_ + x) * raster::kTilePixels;
+  }
+  [[nodiscard]] const float* texels() const { return texels_.data(); }
+  [[nodiscard]] float reversed_depth(int x, int y) const {
+    const int tile = (y >> raster::kTileBits) * tiles_x_ + (x >> raster::kTileBits);
+    return texels_[static_cast<std::size_t>(tile) * raster::kTilePixels +
+                   static_cast<std::size_t>(raster::index_in_tile(x & (raster::kTileSide - 1), y & (raster::kTileSide - 1)))];
+  }
+  /// Metres along the axis, +infinity where nothing is.
+  [[nodiscard]] double distance(int x, int y) const {
+    const float q = reversed_depth(x, y);
+    return q == kNothingSeen ? std::numeric_limits<double>::infinity() : view_.distance_from_reversed(q);
+  }
+  [[nodiscard]] std::size_t memory_bytes() const { return texels_.capacity() * sizeof(float); }
+
+ private:
+  raster::RasterView view_;
+  int tiles_x_ = 0, tiles_y_ = 0;
+  AlignedVector<float> texels_;
+};
+
+}  // namespace laterna::shadow

@@ -1,0 +1,59 @@
+#include "shadow/shadow_map.h"
+
+#include <glm/geometric.hpp>
+
+namespace laterna::shadow {
+namespace {
+
+void copy(const glm::dvec3& from, float* to) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+}
+
+BoundDepthMap bind(const DepthMap& map, const raster::RasterView::Ray& ray) {
+  const raster::RasterView& view = map.view();
+  const PixelRows rows(view);
+  BoundDepthMap bound;
+  bound.map = &map;
+  bound.position = {ProjectedRow(rows.x, ray), ProjectedRow(rows.y, ray), ProjectedRow(rows.w, ray)};
+  bound.homogeneous = homogeneous_row(ray);
+  bound.is_orthographic = view.is_orthographic;
+  copy(view.eye_ws, bound.eye_ws);
+  copy(view.direction_x, bound.direction_x_ws);
+  copy(view.direction_y, bound.direction_y_ws);
+  copy(view.axis_ws, bound.axis_ws);
+  const double x = glm::length(view.direction_x);
+  const double y = glm::length(view.direction_y);
+  bound.texel_size = static_cast<float>(x > y ? x : y);
+  return bound;
+}
+
+}  // namespace
+
+ShadowBias bias_of(const ShadowSettings& settings) {
+  if (!settings.constant_bias && !settings.slope_bias) return {};
+  ShadowBias bias;
+  bias.uses_receiver_plane = false;
+  bias.texels = 0;
+  bias.metres = static_cast<float>(settings.constant_bias.value_or(0));
+  bias.slope = static_cast<float>(settings.slope_bias.value_or(0));
+  return bias;
+}
+
+ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<const DepthMap>> maps,
+                     const raster::RasterView::Ray& ray, InstructionSet set)
+    : maps_(maps.begin(), maps.end()) {
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    test_.maps.push_back(bind(*maps[i], ray));
+  }
+  test_.bias = bias_of(planned.settings);
+  test_.filter = planned.settings.filter;
+  test_.kernel = planned.settings.kernel;
+  test_.outside_is_lit = planned.settings.outside_is_lit;
+  test_.instruction_set = set;
+}
+
+void ShadowMap::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted, float* alpha) const {
+  look_up_shadow_map_for(test_.instruction_set)(test_, samples, wanted, alpha);
+}
+
+}  // namespace laterna::shadow

@@ -1,0 +1,68 @@
+// Shadow maps: Williams, Casting curved shadows on curved surfaces, 1978; filtering by Reeves, Salesin and Cook,
+// Rendering antialiased shadows with depth maps, 1987.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "light/light_plan.h"
+#include "shadow/depth_map.h"
+#include "shadow/projected_view.h"
+#include "shadow/shadow_technique.h"
+
+namespace laterna::shadow {
+
+/// How deep a sample may lie behind what the map holds and still be lit.
+///
+/// The test is made on the receiver's own plane: at the centre of each texel that is read, the plane of the sample's
+/// triangle has a depth of its own, and that is what is compared (Schuler 2005, Isidoro 2006). Reversed depth is
+/// affine on a plane, so the prediction is exact and a plane never shadows itself, at any slope, with no bias at all.
+/// What remains to be paid for are surfaces that bend toward the light within a texel, and rounding.
+struct ShadowBias {
+  bool uses_receiver_plane = true;
+  float texels = 0.5F;  ///< footprint of a texel, as a distance along the ray
+  float slope = 0.25F;  ///< change of depth along the plane from one texel to the next
+  float metres = 0;
+};
+
+/// One depth map bound to the rays of the samples that will ask it. What the kernel reads.
+struct BoundDepthMap {
+  const DepthMap* map = nullptr;
+  ProjectedView position;        // pixel-homogeneous
+  ProjectedRow homogeneous;      // the samples' fourth coordinate
+  bool is_orthographic = false;
+  float eye_ws[3];               // perspective
+  float direction_x_ws[3], direction_y_ws[3];  // of one texel to the right and down, at distance 1 (perspective) or in metres
+  float axis_ws[3];              // orthographic: toward the light
+  float texel_size = 0;          // at distance 1, or in metres
+};
+
+/// What one light's look-ups need.
+struct ShadowMapTest {
+  std::vector<BoundDepthMap> maps;  // one, or six cube faces in the order of light::cube_views
+  ShadowBias bias;
+  ShadowFilter filter = ShadowFilter::bilinear;
+  int kernel = 3;
+  bool outside_is_lit = true;
+  InstructionSet instruction_set = InstructionSet::scalar;
+};
+
+class ShadowMap final : public ShadowTechnique {
+ public:
+  ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<const DepthMap>> maps,
+            const raster::RasterView::Ray& ray, InstructionSet set);
+  void find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted, float* alpha) const override;
+
+ private:
+  std::vector<std::shared_ptr<const DepthMap>> maps_;
+  ShadowMapTest test_;
+};
+
+/// The settings' manual values, or the automatic bias.
+ShadowBias bias_of(const ShadowSettings& settings);
+
+using LookUpShadowMap = void (*)(const ShadowMapTest& test, const SurfaceSamples& samples,
+                                 std::span<const std::uint16_t> wanted, float* alpha);
+LookUpShadowMap look_up_shadow_map_for(InstructionSet set);
+
+}  // namespace laterna::shadow

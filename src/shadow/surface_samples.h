@@ -1,0 +1,42 @@
+// Points on surfaces, the meeting point of visibility, shadows and shading. They come from a camera's pixels, from
+// blended layers over them, or from anywhere else; shadow techniques and shading know no other source.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec4.hpp>
+
+#include "base/triangle_clusters.h"
+#include "raster/raster_view.h"
+
+namespace laterna::shadow {
+
+/// Samples are handled in groups of 16 (a 4 × 4 block of pixels where they come from a picture).
+inline constexpr std::size_t kGroupSize = 16;
+inline constexpr std::size_t kMaxGroups = 16;
+inline constexpr std::size_t kMaxSamples = kGroupSize * kMaxGroups;
+
+template <class T>
+struct alignas(64) SampleArray : std::array<T, kMaxSamples> {};
+
+struct SurfaceSamples {
+  /// The homogeneous world point of a sample is ray_0 + ray_x x + ray_y y + q_term q (RasterView::Ray): x, y the
+  /// pixel and q the reversed depth for a camera's samples.
+  raster::RasterView::Ray ray;
+  std::size_t group_count = 0;
+  /// Samples of a group that count, a bit each. The others hold copies of one that does, so that every number is one.
+  std::array<std::uint16_t, kMaxGroups> active{};
+
+  SampleArray<float> x, y, q;
+  SampleArray<TriangleId> id;
+  SampleArray<std::uint32_t> pixel;  // where the result belongs, index in the tile
+
+  // Filled in by shade::find_surface_points:
+  SampleArray<float> x_ws, y_ws, z_ws;
+  SampleArray<float> normal_x_ws, normal_y_ws, normal_z_ws;  // of the triangle, unit, out of its front
+  SampleArray<float> dq_dx, dq_dy;                           // reversed depth along the triangle's plane, per pixel
+  /// Bounds on how far x_ws, y_ws, z_ws may be off by rounding, in metres.
+  float position_error = 0;
+};
+
+}  // namespace laterna::shadow
