@@ -56,6 +56,7 @@ struct RenderSettings {
   Interpolation interpolation = Interpolation::perspective;
   int anisotropy = 8;                                      ///< most probes of a stretched texture footprint, 1…16
   std::vector<Layer> layers;
+  bool keep_shadow_maps = true;                            ///< false: drawn anew even where nothing has changed
 };
 
 /// Called now and then with the fraction done, in [0, 1], from one thread at a time; false asks to stop.

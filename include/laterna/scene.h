@@ -113,14 +113,21 @@ enum class Attenuation : std::uint8_t {
 };
 
 enum class ShadowTechnique : std::uint8_t { none, map, raytraced };
-enum class ShadowFilter : std::uint8_t { nearest, bilinear, percentage_closer };
+/// How a shadow map is read.
+enum class ShadowFilter : std::uint8_t {
+  refined,            ///< near edges and contacts, the triangles that the texels saw are tested themselves: shadow
+                      ///< edges are as sharp as the picture, antialiased, and surfaces never shade themselves
+  nearest,            ///< one texel: a staircase
+  bilinear,           ///< four texels, weighted
+  percentage_closer,  ///< kernel × kernel nearest texels, all of one weight
+};
 enum class CasterFaces : std::uint8_t { both, back_only };
 
 /// One light's shadows. The defaults need no tuning: bias follows from the receiver's plane and the texel's footprint.
 struct ShadowSettings {
   std::optional<ShadowTechnique> technique;  ///< unset: the picture's
   int resolution = 0;                        ///< texels per side of a map (per cube face); 0: 2048, point lights 1024
-  ShadowFilter filter = ShadowFilter::bilinear;
+  ShadowFilter filter = ShadowFilter::refined;
   int kernel = 3;                                  ///< percentage_closer: kernel × kernel nearest taps, 2…9
   std::optional<double> constant_bias;       ///< metres toward the light; overrides the automatic bias
   std::optional<double> slope_bias;          ///< texel footprints per unit of depth slope; overrides likewise

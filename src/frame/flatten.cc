@@ -84,7 +84,8 @@ void lay_out(std::vector<PlacedPart>& placed, Frame& frame) {
     p.streams.color = take(colors, count, !primitive.colors.empty());
     p.streams.tangent = take(tangents, count, !primitive.tangents.empty());
   }
-  constexpr std::size_t kReadable = 16;
+  // Kernels load whole vectors, and lanes without a stream read its first cluster's worth.
+  constexpr std::size_t kReadable = kVerticesPerCluster + 16;
   const auto size = [](std::initializer_list<AlignedVector<float>*> arrays, std::size_t count) {
     for (AlignedVector<float>* array : arrays) {
       array->resize(count + kReadable);

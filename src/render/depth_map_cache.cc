@@ -20,12 +20,13 @@ bool same_view(const light::ShadowView& a, const light::ShadowView& b) {
 }  // namespace
 
 bool DepthMapKey::operator==(const DepthMapKey& other) const {
-  return faces == other.faces && casters_revision == other.casters_revision &&
+  return faces == other.faces && keeps_triangles == other.keeps_triangles && casters_revision == other.casters_revision &&
          std::equal(views.begin(), views.end(), other.views.begin(), other.views.end(), same_view);
 }
 
-shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view, CasterFaces faces) {
-  shadow::DepthMap map(raster::RasterView(shadow_view.view, shadow_view.width, shadow_view.height));
+shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view, CasterFaces faces,
+                                bool keeps_triangles) {
+  shadow::DepthMap map(raster::RasterView(shadow_view.view, shadow_view.width, shadow_view.height), keeps_triangles);
   const raster::RasterView& view = map.view();
   raster::BinOptions options;
   options.cull = faces == CasterFaces::back_only ? raster::CullFaces::front : raster::CullFaces::none;
@@ -38,26 +39,34 @@ shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowV
 
   const shade::SurfaceCut cut({&context.frame, &view, Interpolation::perspective, 1}, true, context.instruction_set);
   const raster::RasteriseDepth rasterise_depth = raster::rasterise_depth_for(context.instruction_set);
+  const raster::RasteriseVisibility rasterise_visibility = raster::rasterise_visibility_for(context.instruction_set);
   const auto tiles = static_cast<std::size_t>(map.tiles_x() * map.tiles_y());
   context.pool.for_each(tiles, [&](std::size_t i, int) {
     const int x = static_cast<int>(i) % map.tiles_x();
     const int y = static_cast<int>(i) / map.tiles_x();
     float* tile = map.tile(x, y);
     std::fill_n(tile, raster::kTilePixels, view.reversed_far);
-    rasterise_depth({&view, bins->batches(), x, y, 0, 0, &cut}, tile);
+    const raster::TileTask task = {&view, bins->batches(), x, y, 0, 0, &cut};
+    if (TriangleId* ids = map.triangle_tile(x, y); ids != nullptr) {
+      std::fill_n(ids, raster::kTilePixels, kNoTriangle);
+      rasterise_visibility(task, tile, ids);
+    } else {
+      rasterise_depth(task, tile);
+    }
     std::replace(tile, tile + raster::kTilePixels, view.reversed_far, shadow::kNothingSeen);
   });
   return map;
 }
 
-DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& key, const DrawContext& context) {
+DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& key, const DrawContext& context,
+                                          bool anew) {
   const std::lock_guard lock(mutex_);
   if (entries_.size() <= light) entries_.resize(light + 1);
   Entry& entry = entries_[light];
-  if (!entry.maps.empty() && entry.key == key) return {entry.maps, 0};
+  if (!anew && !entry.maps.empty() && entry.key == key) return {entry.maps, 0};
   entry.maps.clear();
   for (const light::ShadowView& view : key.views) {
-    entry.maps.push_back(std::make_shared<const shadow::DepthMap>(draw_depth_map(context, view, key.faces)));
+    entry.maps.push_back(std::make_shared<const shadow::DepthMap>(draw_depth_map(context, view, key.faces, key.keeps_triangles)));
   }
   entry.key = key;
   return {entry.maps, static_cast<int>(entry.maps.size())};

@@ -18,6 +18,7 @@ using DepthMaps = std::vector<std::shared_ptr<const shadow::DepthMap>>;
 struct DepthMapKey {
   std::vector<light::ShadowView> views;
   CasterFaces faces = CasterFaces::both;
+  bool keeps_triangles = true;
   std::uint64_t casters_revision = 0;
   bool operator==(const DepthMapKey& other) const;
 };
@@ -30,7 +31,8 @@ struct DrawContext {
 };
 
 /// One depth map: a pass that touches nothing but positions, and alpha where a material is cut out (row 76).
-shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view, CasterFaces faces);
+shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view, CasterFaces faces,
+                                bool keeps_triangles);
 
 class DepthMapCache {
  public:
@@ -39,7 +41,8 @@ class DepthMapCache {
     int drawn = 0;  // 0: all were kept
   };
   /// The maps of light `light`, drawn if those kept are of something else. Callers that ask at the same time wait.
-  Found find(std::size_t light, const DepthMapKey& key, const DrawContext& context);
+  /// `anew`: drawn in any case.
+  Found find(std::size_t light, const DepthMapKey& key, const DrawContext& context, bool anew);
 
  private:
   struct Entry {

@@ -127,21 +127,22 @@ struct Renderer::Implementation {
   }
 
   std::unique_ptr<shadow::ShadowTechnique> make_technique(const light::PlannedLight& planned, std::size_t index,
-                                                          const raster::RasterView::Ray& ray,
+                                                          const raster::RasterView::Ray& ray, const RenderSettings& settings,
                                                           RenderStatistics& statistics) const {
     switch (planned.technique) {
       case ShadowTechnique::none: return nullptr;
       case ShadowTechnique::raytraced: return std::make_unique<shadow::RayTracedShadow>(planned, ray_scene());
       case ShadowTechnique::map: break;
     }
-    const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces, casters_revision};
-    const render::DepthMapCache::Found found = maps.find(index, key, draw_context());
+    const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
+                                     planned.settings.filter == ShadowFilter::refined, casters_revision};
+    const render::DepthMapCache::Found found = maps.find(index, key, draw_context(), !settings.keep_shadow_maps);
     statistics.maps_drawn += found.drawn;
     statistics.maps_kept += static_cast<int>(found.maps.size()) - found.drawn;
     RenderStatistics::LightMemory memory = {planned.placed->light->name, static_cast<int>(found.maps.size()), 0};
     for (const auto& map : found.maps) memory.bytes += map->memory_bytes();
     statistics.shadow_memory.push_back(memory);
-    return std::make_unique<shadow::ShadowMap>(planned, found.maps, ray, set);
+    return std::make_unique<shadow::ShadowMap>(planned, found.maps, frame, ray, settings.samples, set);
   }
 
   // Everything the tiles share, with every shadow technique ready to answer.
@@ -164,7 +165,7 @@ struct Renderer::Implementation {
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
-      job.lights.push_back({bound, make_technique(planned, i, ray, statistics)});
+      job.lights.push_back({bound, make_technique(planned, i, ray, settings, statistics)});
       if (job.wanted.lux && settings.shading == ShadingModel::papers) {
         job.physical_lights.emplace_back(*planned.placed, ray, ShadingModel::phong, settings.anisotropy);
       }
@@ -353,7 +354,7 @@ Result<LayeredImage> Renderer::depth_map(const std::string& name, int face) cons
                                                                             " depth maps; there is no number " + std::to_string(face));
     }
     const shadow::DepthMap map = render::draw_depth_map(
-        self.draw_context(), planned.shadow_views[static_cast<std::size_t>(face)], planned.settings.caster_faces);
+        self.draw_context(), planned.shadow_views[static_cast<std::size_t>(face)], planned.settings.caster_faces, false);
     LayeredImage image;
     image.width = map.width();
     image.height = map.height();

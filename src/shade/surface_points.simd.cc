@@ -5,18 +5,25 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <cstddef>
-#include <type_traits>
-
 #include "base/vectors-inl.h"
+#include "frame/triangle_corners-inl.h"
 #include "image/texture_lookup-inl.h"
 #include "shade/surface_points.h"
-#include "shade/triangle_corners-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace laterna::shade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
+using frame::HWY_NAMESPACE::CornerVectors;
+using frame::HWY_NAMESPACE::Interpolate;
+using frame::HWY_NAMESPACE::Interpolated;
+using frame::HWY_NAMESPACE::InterpolateWithSlope;
+using frame::HWY_NAMESPACE::kColorField;
+using frame::HWY_NAMESPACE::kNormalField;
+using frame::HWY_NAMESPACE::kTangentField;
+using frame::HWY_NAMESPACE::kUvField;
+using frame::HWY_NAMESPACE::TriangleCorners;
+using frame::HWY_NAMESPACE::Weights;
 using image::HWY_NAMESPACE::Footprint;
 using image::HWY_NAMESPACE::LookUp;
 using image::HWY_NAMESPACE::Texel4;
@@ -50,7 +57,8 @@ struct PixelRays {
 // The point of a triangle that a sample sees.
 struct Hit {
   Vector3 position_ws, to_eye_ws;  // to_eye: unit
-  Vector3 normal_ws;               // unit, out of the triangle's front
+  Vector3 normal_ws;               // unit, on the side that is seen
+  FloatMask shows_back;            // which is the triangle's back
   FloatVector dq_dx, dq_dy;
   Weights weights;
 };
@@ -125,7 +133,10 @@ HWY_INLINE Hit FindHit(const PixelRays& rays, const CornerVectors& corners, Floa
     dp_dy = (direction_y - from_eye * hit.dq_dy) * w;
     hit.to_eye_ws = Normalised(direction * Splat(-1.0F));
   }
-  hit.normal_ws = n * (hn::Sqrt(inverse_n_squared));
+  const auto is_behind = Dot(n, hit.to_eye_ws) < Splat(0.0F);
+  const auto unit = hn::Sqrt(inverse_n_squared);
+  hit.shows_back = is_behind;
+  hit.normal_ws = n * hn::IfThenElse(is_behind, hn::Neg(unit), unit);
 
   // point − a = b u + c v; crossing with n isolates b and c.
   const Vector3 to_b = Cross(v, n) * inverse_n_squared, to_c = Cross(n, u) * inverse_n_squared;
@@ -192,7 +203,7 @@ class SurfaceReader {
   // Interpolated normal, or the triangle's where there is none; turned to the viewer on double-sided surfaces.
   HWY_INLINE Vector3 ShadingNormal() const {
     const auto stream = corners_.StreamAt(kNormalField);
-    Vector3 normal = hit_.normal_ws;
+    Vector3 normal = IfThenElse3(hit_.shows_back, hit_.normal_ws * Splat(-1.0F), hit_.normal_ws);
     if (!stream.IsMissing()) {
       const Vector3 sum = Interpolate(corners_.At3(frame_.normal_x_ws.data(), frame_.normal_y_ws.data(),
                                                    frame_.normal_z_ws.data(), stream.first),
@@ -201,11 +212,7 @@ class SurfaceReader {
       normal = {stream.OrElse(smooth.x, normal.x), stream.OrElse(smooth.y, normal.y), stream.OrElse(smooth.z, normal.z)};
     }
     if (surface_.normal_texture.chain != nullptr) normal = Perturbed(normal);
-    if (surface_.double_sided) {
-      const auto is_behind = Dot(hit_.normal_ws, hit_.to_eye_ws) < Splat(0.0F);
-      normal = IfThenElse3(is_behind, normal * Splat(-1.0F), normal);
-    }
-    return normal;
+    return surface_.double_sided ? IfThenElse3(hit_.shows_back, normal * Splat(-1.0F), normal) : normal;
   }
 
  private:

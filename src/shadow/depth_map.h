@@ -19,24 +19,28 @@ inline constexpr float kNothingSeen = -std::numeric_limits<float>::max();
 class DepthMap {
  public:
   DepthMap() = default;
-  explicit DepthMap(const raster::RasterView& view)
+  /// `keeps_triangles`: which triangle each texel saw is kept too.
+  DepthMap(const raster::RasterView& view, bool keeps_triangles)
       : view_(view),
         tiles_x_((view.width + raster::kTileSide - 1) / raster::kTileSide),
         tiles_y_((view.height + raster::kTileSide - 1) / raster::kTileSide),
-        texels_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_) * raster::kTilePixels) {}
+        texels_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_) * raster::kTilePixels),
+        triangles_(keeps_triangles ? texels_.size() : 0) {}
 
   [[nodiscard]] const raster::RasterView& view() const { return view_; }
   [[nodiscard]] int width() const { return view_.width; }
   [[nodiscard]] int height() const { return view_.height; }
   [[nodiscard]] int tiles_x() const { return tiles_x_; }
   [[nodiscard]] int tiles_y() const { return tiles_y_; }
-  [[nodiscard]] float* tile(int x, int y) {
-    return texels_.data() + static_cast<std::size_t>(y * tiles_x_ + x) * raster::kTilePixels;
-  }
+  [[nodiscard]] float* tile(int x, int y) { return texels_.data() + tile_start(x, y); }
   [[nodiscard]] const float* texels() const { return texels_.data(); }
+  /// Null where triangles are not kept; kNoTriangle where nothing is.
+  [[nodiscard]] TriangleId* triangle_tile(int x, int y) {
+    return triangles_.empty() ? nullptr : triangles_.data() + tile_start(x, y);
+  }
+  [[nodiscard]] const TriangleId* triangles() const { return triangles_.empty() ? nullptr : triangles_.data(); }
   [[nodiscard]] float reversed_depth(int x, int y) const {
-    const int tile = (y >> raster::kTileBits) * tiles_x_ + (x >> raster::kTileBits);
-    return texels_[static_cast<std::size_t>(tile) * raster::kTilePixels +
+    return texels_[tile_start(x >> raster::kTileBits, y >> raster::kTileBits) +
                    static_cast<std::size_t>(raster::index_in_tile(x & (raster::kTileSide - 1), y & (raster::kTileSide - 1)))];
   }
   /// Metres along the axis, +infinity where nothing is.
@@ -44,12 +48,19 @@ class DepthMap {
     const float q = reversed_depth(x, y);
     return q == kNothingSeen ? std::numeric_limits<double>::infinity() : view_.distance_from_reversed(q);
   }
-  [[nodiscard]] std::size_t memory_bytes() const { return texels_.capacity() * sizeof(float); }
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return texels_.capacity() * sizeof(float) + triangles_.capacity() * sizeof(TriangleId);
+  }
 
  private:
+  [[nodiscard]] std::size_t tile_start(int x, int y) const {
+    return static_cast<std::size_t>(y * tiles_x_ + x) * raster::kTilePixels;
+  }
+
   raster::RasterView view_;
   int tiles_x_ = 0, tiles_y_ = 0;
   AlignedVector<float> texels_;
+  AlignedVector<TriangleId> triangles_;
 };
 
 }  // namespace laterna::shadow

@@ -40,13 +40,22 @@ ShadowBias bias_of(const ShadowSettings& settings) {
 }
 
 ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<const DepthMap>> maps,
-                     const raster::RasterView::Ray& ray, InstructionSet set)
+                     const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
+                     InstructionSet set)
     : maps_(maps.begin(), maps.end()) {
   for (std::size_t i = 0; i < maps.size(); ++i) {
     test_.maps.push_back(bind(*maps[i], ray));
   }
   test_.bias = bias_of(planned.settings);
   test_.filter = planned.settings.filter;
+  test_.frame = &frame;
+  // Several samples per pixel antialias shadows' edges by themselves.
+  test_.positions = samples_per_pixel > 1 ? 1 : 5;
+  for (int i = 0; i < 4; ++i) {
+    test_.ray_x[i] = static_cast<float>(ray.ray_x[i]);
+    test_.ray_y[i] = static_cast<float>(ray.ray_y[i]);
+    test_.q_term[i] = static_cast<float>(ray.q_term[i]);
+  }
   test_.kernel = planned.settings.kernel;
   test_.outside_is_lit = planned.settings.outside_is_lit;
   test_.instruction_set = set;

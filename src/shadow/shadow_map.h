@@ -41,8 +41,12 @@ struct BoundDepthMap {
 struct ShadowMapTest {
   std::vector<BoundDepthMap> maps;  // one, or six cube faces in the order of light::cube_views
   ShadowBias bias;
-  ShadowFilter filter = ShadowFilter::bilinear;
+  ShadowFilter filter = ShadowFilter::refined;
+  const frame::Frame* frame = nullptr;  // refined: where the triangles are
   int kernel = 3;
+  /// Refined: places in a pixel whose α is averaged at a shadow's edge, 5 or 1.
+  int positions = 5;
+  float ray_x[4], ray_y[4], q_term[4];  // of the samples' rays
   bool outside_is_lit = true;
   InstructionSet instruction_set = InstructionSet::scalar;
 };
@@ -50,7 +54,7 @@ struct ShadowMapTest {
 class ShadowMap final : public ShadowTechnique {
  public:
   ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<const DepthMap>> maps,
-            const raster::RasterView::Ray& ray, InstructionSet set);
+            const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set);
   void find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted, float* alpha) const override;
 
  private:

@@ -1,19 +1,21 @@
 // The corners of N triangles: positions and attributes, interpolated at N samples.
-#if defined(LATERNA_SHADE_TRIANGLE_CORNERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef LATERNA_SHADE_TRIANGLE_CORNERS_INL_H_
-#undef LATERNA_SHADE_TRIANGLE_CORNERS_INL_H_
+#if defined(LATERNA_FRAME_TRIANGLE_CORNERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LATERNA_FRAME_TRIANGLE_CORNERS_INL_H_
+#undef LATERNA_FRAME_TRIANGLE_CORNERS_INL_H_
 #else
-#define LATERNA_SHADE_TRIANGLE_CORNERS_INL_H_
+#define LATERNA_FRAME_TRIANGLE_CORNERS_INL_H_
 #endif
 
 #include <hwy/highway.h>
 
+#include <cstddef>
+#include <type_traits>
+
 #include "base/vectors-inl.h"
 #include "frame/frame.h"
-#include "raster/raster_view.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace laterna::shade::HWY_NAMESPACE {
+namespace laterna::frame::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 
@@ -52,32 +54,24 @@ HWY_INLINE Vector3 Interpolate(const CornerVectors& v, const Weights& w) {
 template <bool kUniform>
 class TriangleCorners {
  public:
-  TriangleCorners(const frame::Frame& frame, const TriangleId* ids) : frame_(frame) {
+  TriangleCorners(const Frame& frame, const TriangleId* ids) : frame_(frame) {
     if constexpr (kUniform) {
       const std::uint32_t packed = frame.corners[*ids];
       cluster_ = cluster_of(*ids);
       first_ = frame.clusters[cluster_].first_vertex;
       for (unsigned i = 0; i < 3; ++i) local_[i] = packed >> (8 * i) & 255U;
     } else {
-      const IntTag di;
-      const UintTag du;
-      const auto id = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(ids));
-      clusters_ = hn::BitCast(di, hn::ShiftRight<kTriangleBits>(hn::BitCast(du, id)));
-      const auto packed = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(frame.corners.data()), id);
-      const auto byte = SplatInt(255);
-      locals_[0] = hn::And(packed, byte);
-      locals_[1] = hn::And(hn::ShiftRight<8>(packed), byte);
-      locals_[2] = hn::And(hn::ShiftRight<16>(packed), byte);
-      static_assert(sizeof(Cluster) % sizeof(std::int32_t) == 0 && offsetof(Cluster, first_vertex) == 0);
-      firsts_ = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(frame.clusters.data()),
-                                clusters_ * SplatInt(sizeof(Cluster) / sizeof(std::int32_t)));
+      Gather(hn::LoadU(IntTag(), reinterpret_cast<const std::int32_t*>(ids)));
     }
   }
+  TriangleCorners(const Frame& frame, IntVector ids) requires(!kUniform) : frame_(frame) { Gather(ids); }
 
   HWY_INLINE CornerVectors Positions() const {
     return At3(frame_.x_ws.data(), frame_.y_ws.data(), frame_.z_ws.data(), First());
   }
 
+  // Index of each lane's cluster.
+  HWY_INLINE IntVector Clusters() const requires(!kUniform) { return clusters_; }
   // Index of a stream's first vertex for each lane's cluster, and whether the cluster has that stream.
   struct Stream {
     std::conditional_t<kUniform, std::uint32_t, IntVector> first;
@@ -100,12 +94,12 @@ class TriangleCorners {
   };
   // `field`: which word of ClusterStreams.
   HWY_INLINE Stream StreamAt(std::size_t field) const {
-    static_assert(sizeof(frame::ClusterStreams) % sizeof(std::uint32_t) == 0);
-    constexpr std::size_t kWords = sizeof(frame::ClusterStreams) / sizeof(std::uint32_t);
+    static_assert(sizeof(ClusterStreams) % sizeof(std::uint32_t) == 0);
+    constexpr std::size_t kWords = sizeof(ClusterStreams) / sizeof(std::uint32_t);
     const auto* words = reinterpret_cast<const std::uint32_t*>(frame_.streams.data());
     if constexpr (kUniform) {
       const std::uint32_t first = words[cluster_ * kWords + field];
-      return {first, first != frame::kNoStream};
+      return {first, first != kNoStream};
     } else {
       const IntTag di;
       const auto first = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(words),
@@ -141,8 +135,22 @@ class TriangleCorners {
     }
   }
 
+  HWY_INLINE void Gather(IntVector ids) {
+    const IntTag di;
+    const UintTag du;
+    clusters_ = hn::BitCast(di, hn::ShiftRight<kTriangleBits>(hn::BitCast(du, ids)));
+    const auto packed = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(frame_.corners.data()), ids);
+    const auto byte = SplatInt(255);
+    locals_[0] = hn::And(packed, byte);
+    locals_[1] = hn::And(hn::ShiftRight<8>(packed), byte);
+    locals_[2] = hn::And(hn::ShiftRight<16>(packed), byte);
+    static_assert(sizeof(Cluster) % sizeof(std::int32_t) == 0 && offsetof(Cluster, first_vertex) == 0);
+    firsts_ = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(frame_.clusters.data()),
+                              clusters_ * SplatInt(sizeof(Cluster) / sizeof(std::int32_t)));
+  }
+
   struct Nothing {};
-  const frame::Frame& frame_;
+  const Frame& frame_;
   std::conditional_t<kUniform, std::uint32_t, Nothing> cluster_{}, first_{};
   std::conditional_t<kUniform, std::array<std::uint32_t, 3>, Nothing> local_{};
   std::conditional_t<kUniform, Nothing, IntVector> clusters_{}, firsts_{};
@@ -150,12 +158,12 @@ class TriangleCorners {
 };
 
 constexpr std::size_t kNormalField = 0, kUvField = 1, kColorField = 3, kTangentField = 4;
-static_assert(offsetof(frame::ClusterStreams, normal) == kNormalField * sizeof(std::uint32_t));
-static_assert(offsetof(frame::ClusterStreams, uv) == kUvField * sizeof(std::uint32_t));
-static_assert(offsetof(frame::ClusterStreams, color) == kColorField * sizeof(std::uint32_t));
-static_assert(offsetof(frame::ClusterStreams, tangent) == kTangentField * sizeof(std::uint32_t));
+static_assert(offsetof(ClusterStreams, normal) == kNormalField * sizeof(std::uint32_t));
+static_assert(offsetof(ClusterStreams, uv) == kUvField * sizeof(std::uint32_t));
+static_assert(offsetof(ClusterStreams, color) == kColorField * sizeof(std::uint32_t));
+static_assert(offsetof(ClusterStreams, tangent) == kTangentField * sizeof(std::uint32_t));
 
-}  // namespace laterna::shade::HWY_NAMESPACE
+}  // namespace laterna::frame::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard
