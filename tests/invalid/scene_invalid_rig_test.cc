@@ -1,0 +1,253 @@
+// Bad rigs, and exactly what is said about each.
+#include <gtest/gtest.h>
+
+#include "unit/gltf_builder.h"
+
+namespace laterna {
+namespace {
+
+using namespace testing_scenes;
+
+struct RigCase {
+  const char* name;
+  const char* text;
+  const char* messages;
+};
+
+std::string case_name(const testing::TestParamInfo<RigCase>& info) { return info.param.name; }
+
+class InvalidRig : public testing::TestWithParam<RigCase> {};
+
+TEST_P(InvalidRig, IsRefusedWithItsMessage) {
+  const TemporaryFolder folder;
+  folder.write("slide.png", "x");
+  const Result<Scene> scene = load_scene({folder.write("s.gltf", triangle_builder().text())},
+                                         {.rigs = {folder.write("r.json", GetParam().text)}});
+  EXPECT_EQ(messages_of(scene, folder.path()), GetParam().messages);
+}
+
+const RigCase kRigCases[] = {
+    {"NotJson", "lights: sun",
+     "r.json: line 1: not valid JSON: syntax error while parsing value - invalid literal; last read: 'l'"},
+    {"Empty", "",
+     "r.json: line 1: not valid JSON: syntax error while parsing value - unexpected end of input; expected "
+     "'[', '{', or a literal"},
+    {"NotAnObject", "[]", "r.json: line 1: expected an object, got an array of 0"},
+    {"CutShort", "{\"lights\": [{\"type\": \"point\"",
+     "r.json: line 1: lights[0]: not valid JSON: syntax error while parsing object - unexpected end of "
+     "input; expected '}'"},
+    {"Comment", "{\n  // the sun\n  \"lights\": []\n}",
+     "r.json: line 2: not valid JSON: syntax error while parsing object key - invalid literal; last read: "
+     "'{<U+000A>  /'; expected string literal"},
+    {"TrailingComma", "{\"ambient\": [0, 0, 0],\n}",
+     "r.json: line 2: not valid JSON: syntax error while parsing object key - unexpected '}'; expected "
+     "string literal"},
+    {"NotANumber", "{\n\"ambient\": [0, NaN, 0]\n}",
+     "r.json: line 2: ambient[1]: not valid JSON: syntax error while parsing value - invalid literal; last "
+     "read: '0, N'"},
+    {"Infinite", "{\n\"lights\": [{\"type\": \"point\", \"position\": [0,0,0],\n\"candela\": Infinity}]}",
+     "r.json: line 3: lights[0].candela: not valid JSON: syntax error while parsing value - invalid literal; "
+     "last read: '\"candela\": I'"},
+    {"NumberTooLarge", "{\"ambient\": [0, 1e400, 0]}",
+     "r.json: line 1: ambient[1]: not valid JSON: number overflow parsing '1e400'"},
+    {"DuplicateKey", "{\n\"ambient\": [0, 0, 0],\n\"ambient\": [1, 1, 1]\n}",
+     "r.json: line 3: the key \"ambient\" appears twice"},
+    {"UnknownKey", "{\n\"light\": []\n}",
+     "r.json: line 2: light: a rig has no key \"light\" (did you mean \"lights\"?)"},
+    {"KeyOfNothing", "{\"xyzzy\": 1}", "r.json: line 1: xyzzy: a rig has no key \"xyzzy\""},
+    {"AmbientTooShort", "{\"ambient\": [0, 0]}",
+     "r.json: line 1: ambient: expected an array of 3 numbers, got an array of 2"},
+    {"AmbientNegative", "{\"ambient\": [0,\n -1, 0]}",
+     "r.json: line 2: ambient[1]: expected a number of at least 0, got -1"},
+    {"AmbientText", "{\"ambient\": \"white\"}",
+     "r.json: line 1: ambient: expected an array of 3 numbers, got \"white\""},
+    {"BackgroundOfText", "{\"background\": [0, \"0\", 0]}",
+     "r.json: line 1: background[1]: expected a number of at least 0, got \"0\""},
+    {"Shading", "{\"shading\": {\"specular\": -1, \"shininess\": 0, \"glow\": 1}}",
+     "r.json: line 1: shading.specular: expected a number of at least 0, got -1\n"
+     "r.json: line 1: shading.shininess: expected a number greater than 0, got 0\n"
+     "r.json: line 1: shading.glow: shading has no key \"glow\""},
+    {"CamerasNotAnArray", "{\"cameras\": {}}", "r.json: line 1: cameras: expected an array, got an object"},
+    {"CameraNotAnObject", "{\"cameras\": [7]}", "r.json: line 1: cameras[0]: expected an object, got 7"},
+    {"CameraIncomplete", "{\"cameras\": [\n{}]}",
+     "r.json: line 2: cameras[0].position: is missing\n"
+     "r.json: line 2: cameras[0].target: is missing\n"
+     "r.json: line 2: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"intrinsics\", \"orthographic\""},
+    {"CameraLooksNowhere",
+     "{\"cameras\": [{\"position\": [1, 2, 3],\n\"target\": [1, 2, 3], \"yfov_deg\": 40}]}",
+     "r.json: line 2: cameras[0].target: is the same point as position: there is no direction to look in"},
+    {"CameraUpZero",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 40,\n\"up\": [0, 0, 0]}]}",
+     "r.json: line 2: cameras[0].up: up is the zero vector"},
+    {"CameraUpAlongTheGaze",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 40,\n\"up\": [0, 0, 2]}]}",
+     "r.json: line 2: cameras[0].up: up points along the direction of view: give another up"},
+    {"CameraFar", "{\"cameras\": [{\"position\": [0,0,1e13], \"target\": [0,0,0], \"yfov_deg\": 40}]}",
+     "r.json: line 1: cameras[0].position[2]: expected a number from -1000000000000 to 1000000000000, got "
+     "10000000000000"},
+    {"FieldOfViewZero", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0],\n\n\"yfov_deg\": 0}]}",
+     "r.json: line 3: cameras[0].yfov_deg: expected a number between 0 and 180, got 0"},
+    {"FieldOfView180", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 180}]}",
+     "r.json: line 1: cameras[0].yfov_deg: expected a number between 0 and 180, got 180"},
+    {"FieldOfViewWord", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": \"40\"}]}",
+     "r.json: line 1: cameras[0].yfov_deg: expected a number between 0 and 180, got \"40\""},
+    {"FieldOfViewMissing", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0]}]}",
+     "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"intrinsics\", \"orthographic\""},
+    {"FieldOfViewMisspelt", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0],\n\"yfov\": 40}]}",
+     "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"intrinsics\", \"orthographic\"\n"
+     "r.json: line 2: cameras[0].yfov: a camera has no key \"yfov\" (did you mean \"yfov_deg\"?)"},
+    {"FieldOfViewTwice",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 40,\n\"hfov_deg\": 50, "
+     "\"aspect\": 1}]}",
+     "r.json: line 2: cameras[0].hfov_deg: only one of \"yfov_deg\" and \"hfov_deg\" may be given"},
+    {"HorizontalWithoutAspect",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"hfov_deg\": 50}]}",
+     "r.json: line 1: cameras[0].hfov_deg: needs \"aspect\" (width / height) beside it"},
+    {"NearNotPositive",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 50, \"near\": 0}]}",
+     "r.json: line 1: cameras[0].near: expected a number greater than 0, got 0"},
+    {"FarBeforeNear",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 50, \"near\": 5, \"far\": "
+     "5}]}",
+     "r.json: line 1: cameras[0].far: must be beyond near (5), got 5"},
+    {"AspectZero",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 50, \"aspect\": 0}]}",
+     "r.json: line 1: cameras[0].aspect: expected a number greater than 0, got 0"},
+    {"OrthographicWithoutEnd",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"orthographic\": {\"height\": 2}}]}",
+     "r.json: line 1: cameras[0].far: is missing: an orthographic view ends somewhere"},
+    {"OrthographicHeight",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"far\": 9, \"orthographic\": {\"hieght\": "
+     "2}}]}",
+     "r.json: line 1: cameras[0].orthographic.height: is missing\n"
+     "r.json: line 1: cameras[0].orthographic.hieght: orthographic has no key \"hieght\" (did you mean "
+     "\"height\"?)"},
+    {"Intrinsics",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"intrinsics\":\n{\"fx\": 100, \"fy\": -1, "
+     "\"cx\": 0, \"width\": 10, \"heigth\": 10}}]}",
+     "r.json: line 1: cameras[0].intrinsics.cy: is missing\n"
+     "r.json: line 1: cameras[0].intrinsics.height: is missing\n"
+     "r.json: line 2: cameras[0].intrinsics.fy: expected a number greater than 0, got -1\n"
+     "r.json: line 2: cameras[0].intrinsics.heigth: intrinsics has no key \"heigth\" (did you mean "
+     "\"height\"?)"},
+    {"IntrinsicsAndAspect",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"aspect\": 1, \"intrinsics\": {\"fx\": 1, "
+     "\"fy\": 1, \"cx\": 0, \"cy\": 0, \"width\": 1, \"height\": 1}}]}",
+     "r.json: line 1: cameras[0].aspect: follows from the intrinsics"},
+    {"NameEmpty",
+     "{\"cameras\": [{\"name\": \"\", \"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 40}]}",
+     "r.json: line 1: cameras[0].name: is empty"},
+    {"NameTwice",
+     "{\"lights\": [{\"name\": \"a\", \"type\": \"point\", \"position\": [0,0,0]},\n{\"name\": \"a\", "
+     "\"type\": \"point\", \"position\": [0,0,0]}]}",
+     "r.json: line 2: lights[1].name: \"a\" is taken already"},
+    {"LightWithoutType", "{\"lights\": [{\"position\": [0,0,0]}]}",
+     "r.json: line 1: lights[0].type: is missing"},
+    {"LightTypeMisspelt", "{\"lights\": [{\"type\": \"projecter\"}]}",
+     "r.json: line 1: lights[0].type: expected one of \"directional\", \"point\", \"spot\", \"projector\", "
+     "got \"projecter\" (did you mean \"projector\"?)"},
+    {"PointWithoutPosition", "{\"lights\": [{\"type\": \"point\"}]}",
+     "r.json: line 1: lights[0].position: is missing"},
+    {"PointWithTarget", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0],\n\"target\": [0,0,0]}]}",
+     "r.json: line 2: lights[0].target: a point light has no key \"target\""},
+    {"KeyMisspelt", "{\"lights\": [{\"type\": \"point\", \"positon\": [0,0,0]}]}",
+     "r.json: line 1: lights[0].position: is missing\n"
+     "r.json: line 1: lights[0].positon: a point light has no key \"positon\" (did you mean \"position\"?)"},
+    {"IntensityHasNoUnit", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"intensity\": 5}]}",
+     "r.json: line 1: lights[0].intensity: the brightness of a point light is given in \"candela\""},
+    {"SunInCandela",
+     "{\"lights\": [{\"type\": \"directional\", \"position\": [0,1,0], \"target\": [0,0,0],\n\"candela\": "
+     "5}]}",
+     "r.json: line 2: lights[0].candela: the brightness of a directional light is given in \"lux\""},
+    {"BulbInLux", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"lux\": 5}]}",
+     "r.json: line 1: lights[0].lux: the brightness of a point light is given in \"candela\""},
+    {"ProjectorInWatts",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"watts\": 5}]}",
+     "r.json: line 1: lights[0].watts: the brightness of a projector is given in \"candela\" or \"lumens\""},
+    {"CandelaAndLumens",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"lumens\": 5, \"candela\": 5}]}",
+     "r.json: line 1: lights[0].lumens: give either candela or lumens, not both"},
+    {"CandelaNegative", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"candela\": -5}]}",
+     "r.json: line 1: lights[0].candela: expected a number of at least 0, got -5"},
+    {"ColourNegative",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"color\": [1, 1, -0.5]}]}",
+     "r.json: line 1: lights[0].color[2]: expected a number of at least 0, got -0.5"},
+    {"RangeZero", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"range\": 0}]}",
+     "r.json: line 1: lights[0].range: expected a number greater than 0, got 0"},
+    {"AttenuationNeedsRange",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"attenuation\": \"linear\"}]}",
+     "r.json: line 1: lights[0].attenuation: needs \"range\" beside it"},
+    {"AttenuationIgnoresRange",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"attenuation\": \"none\", \"range\": 4}]}",
+     "r.json: line 1: lights[0].range: has no effect with this attenuation: leave one of them out"},
+    {"AttenuationMisspelt",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"attenuation\": \"inverse-square\"}]}",
+     "r.json: line 1: lights[0].attenuation: expected one of \"none\", \"linear\", \"inverse_square\", "
+     "\"gltf_windowed\", got \"inverse-square\" (did you mean \"inverse_square\"?)"},
+    {"ConesCrossed",
+     "{\"lights\": [{\"type\": \"spot\", \"position\": [0,1,0], \"target\": [0,0,0], \"inner_cone_deg\": "
+     "50}]}",
+     "r.json: line 1: lights[0].inner_cone_deg: the inner cone (50) must not exceed the outer cone (45)"},
+    {"ConeTooWide",
+     "{\"lights\": [{\"type\": \"spot\", \"position\": [0,1,0], \"target\": [0,0,0], \"outer_cone_deg\": "
+     "91}]}",
+     "r.json: line 1: lights[0].outer_cone_deg: expected a number from 0 to 90, got 91"},
+    {"BoxIncomplete",
+     "{\"lights\": [{\"type\": \"directional\", \"position\": [0,1,0], \"target\": [0,0,0], \"half_width\": "
+     "5}]}",
+     "r.json: line 1: lights[0].half_height: is missing\n"
+     "r.json: line 1: lights[0].far: is missing"},
+    {"BoxTurned",
+     "{\"lights\": [{\"type\": \"directional\", \"position\": [0,1,0], \"target\": [0,0,0], \"half_width\": "
+     "5, \"half_height\": 5, \"near\": 3, \"far\": 2}]}",
+     "r.json: line 1: lights[0].far: must be beyond near (3), got 2"},
+    {"SlideMissing",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": "
+     "30,\n\"slide\": \"lost.png\"}]}",
+     "r.json: line 2: lights[0].slide: \"lost.png\" not found (tried \"lost.png\")"},
+    {"SlideUrl",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"slide\": \"https://example.org/a.png\"}]}",
+     "r.json: line 1: lights[0].slide: \"https://example.org/a.png\" is a URL or has a drive letter; only "
+     "files given relative to the scene are read"},
+    {"SlideAndMap",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"slide\": \"slide.png\", \"intensity_map\": \"slide.png\"}]}",
+     "r.json: line 1: lights[0].intensity_map: give either slide or intensity_map, not both"},
+    {"ProfileMisspelt",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"profile\": \"flat\", \"outside\": \"wrap\"}]}",
+     "r.json: line 1: lights[0].profile: expected one of \"flat_field\", \"uniform_candela\", got \"flat\" "
+     "(did you mean \"flat_field\"?)\n"
+     "r.json: line 1: lights[0].outside: expected one of \"black\", \"clamp\", \"repeat\", \"mirror\", got "
+     "\"wrap\""},
+    {"ShadowText", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": \"soft\"}]}",
+     "r.json: line 1: lights[0].shadow: expected true, false or an object, got \"soft\""},
+    {"ShadowKeys",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"technique\": \"ray\", "
+     "\"resolution\": 0, \"kernel\": 10,\n\"bias\": 1, \"outside\": \"dark\"}}]}",
+     "r.json: line 1: lights[0].shadow.technique: expected one of \"none\", \"map\", \"raytraced\", got "
+     "\"ray\" (did you mean \"raytraced\"?)\n"
+     "r.json: line 1: lights[0].shadow.resolution: expected a whole number from 1 to 16384, got 0\n"
+     "r.json: line 1: lights[0].shadow.kernel: expected a whole number from 2 to 9, got 10\n"
+     "r.json: line 2: lights[0].shadow.outside: expected one of \"lit\", \"shadowed\", got \"dark\"\n"
+     "r.json: line 2: lights[0].shadow.bias: a shadow has no key \"bias\" (did you mean \"constant_bias\"?)"},
+    {"ShadowResolutionFraction",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"resolution\": 1024.5}}]}",
+     "r.json: line 1: lights[0].shadow.resolution: expected a whole number from 1 to 16384, got 1024.5"},
+    {"EnabledNumber", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"enabled\": 1}]}",
+     "r.json: line 1: lights[0].enabled: expected true or false, got 1"},
+    {"NodeWithoutName", "{\"nodes\": [{\"visible\": false}]}", "r.json: line 1: nodes[0].name: is missing"},
+    {"NodeUnknown", "{\"nodes\": [\n{\"name\": \"roof\", \"visible\": false}]}",
+     "r.json: line 2: nodes[0].name: the scene has no node named \"roof\""},
+    {"NodeKey", "{\"nodes\": [{\"name\": \"roof\", \"cast_shadow\": false}]}",
+     "r.json: line 1: nodes[0].cast_shadow: a node has no key \"cast_shadow\" (did you mean "
+     "\"casts_shadow\"?)"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Rig, InvalidRig, testing::ValuesIn(kRigCases), case_name);
+
+}  // namespace
+}  // namespace laterna
