@@ -27,7 +27,8 @@ enum class Transfer : std::uint8_t {
 class Image {
  public:
   Image() = default;
-  /// Zero-filled. width and height in [1, kMaxImageSide], channels in [1, 4].
+  /// Zero-filled. width and height in [1, kMaxImageSide], channels in [1, 4]; anything else makes an empty
+  /// picture.
   Image(int width, int height, int channels, PixelType type, Transfer transfer);
 
   [[nodiscard]] int width() const { return width_; }
@@ -39,7 +40,8 @@ class Image {
   [[nodiscard]] bool empty() const { return width_ == 0; }
   [[nodiscard]] bool has_alpha() const { return channels_ == 2 || channels_ == 4; }
 
-  /// All values in storage order: ((y * width) + x) * channels + channel. T must be the pixel type's C++ type.
+  /// All values in storage order: ((y * width) + x) * channels + channel. T is std::uint8_t, std::uint16_t or
+  /// float; for another than the picture's own type the span is empty.
   template <class T>
   [[nodiscard]] std::span<T> values();
   template <class T>
@@ -63,10 +65,12 @@ inline constexpr int kMaxImageSide = 65536;
 /// Largest number of pixels that is read: 2^30. A file that claims more is refused before memory is taken.
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 30;
 
-/// Decodes PNG (1–16 bit, grey, palette, RGB, with or without alpha, interlaced), JPEG, TGA, BMP (RLE too), GIF's
-/// first frame, PNM, Radiance HDR, OpenEXR (RGB[A] or Y[A] of the first part) or PFM. The kind is told from the bytes, the name
-/// only breaks the tie for TGA, which has no signature. Transfer: sRGB for 8- and 16-bit files, linear for HDR,
-/// EXR and PFM. `name` stands in messages.
+/// Decodes PNG (1–16 bit, grey, palette, RGB, with or without alpha, interlaced), JPEG (grey, RGB), GIF (the
+/// first frame), BMP (RLE too), TGA, PNM (P1 … P6), Radiance HDR, OpenEXR (RGB[A] or Y[A] of the first part)
+/// or PFM. The kind is told from the bytes; the name decides only for TGA, which has no signature. Transfer:
+/// sRGB for 8- and 16-bit files, linear for HDR, EXR and PFM. Palettes become RGB, a transparent colour
+/// becomes alpha; colour profiles, gamma and EXIF orientation are not applied. A file that ends before its
+/// picture does is an error, as is damage that the format can show. `name` stands in messages.
 Result<Image> decode_image(std::span<const std::byte> encoded, std::string_view name);
 
 /// Reads and decodes a file.
@@ -79,6 +83,7 @@ struct ImageHeader {
   PixelType type = PixelType::u8;
 };
 Result<ImageHeader> read_image_header(std::span<const std::byte> encoded, std::string_view name);
+Result<ImageHeader> read_image_header(const std::filesystem::path& file);
 
 /// A picture of named float channels, as in OpenEXR: "R", "G", "B", "A", "Z", "N.X", "light.sun.R", …
 struct Channel {
@@ -87,41 +92,57 @@ struct Channel {
 };
 struct LayeredImage {
   int width = 0, height = 0;
-  std::vector<Channel> channels;                ///< linear light
+  std::vector<Channel> channels;  ///< linear light; R, G, B or Y multiplied by A where there is an A
   std::map<std::string, std::string> metadata;  ///< settings, names of object ids, …
 
   [[nodiscard]] const Channel* find(std::string_view name) const;
 };
 
-/// Reads every channel of a file: EXR as it is; other formats as R, G, B, A or Y, A in linear light.
-Result<LayeredImage> read_layered_image(const std::filesystem::path& file);
-
-struct WriteOptions {
-  enum class Depth { automatic, bits8, bits16, half, single } depth = Depth::automatic;
-  float exposure = 1;      ///< factor on R, G, B before encoding; 8- and 16-bit formats only
-  int threads = 0;         ///< for compression; 0: all
+/// What read_layered_image() makes of an 8- or 16-bit file.
+enum class ChannelValues : std::uint8_t {
+  linear,  ///< linear light, colours multiplied by alpha: what OpenEXR holds
+  stored,  ///< the stored codes as 0…1, for comparing files as idiff does
 };
 
-/// Writes the picture by the ending of `file`: .png (8 or 16 bit; R G B [A] or Y), .exr (half or float, all channels,
-/// metadata), .hdr, .pfm (RGB or one channel). "-" is stdout and takes PNG. The file is written beside its
-/// target and renamed into place; on failure nothing is left behind.
-Result<void> write_image(const LayeredImage& image, const std::filesystem::path& file, const WriteOptions& = {});
+/// Reads every channel of a file: EXR as it is (half, float and unsigned integers; on the display window, 0
+/// where there is no data; string attributes as metadata); other formats as R, G, B or Y, and A.
+Result<LayeredImage> read_layered_image(const std::filesystem::path& file,
+                                        ChannelValues values = ChannelValues::linear);
+
+struct WriteOptions {
+  /// automatic: 8 bits for PNG; for EXR half for colours and single for data (Z, P, N, uv, id, lux,
+  /// visibility).
+  enum class Depth { automatic, bits8, bits16, half, single } depth = Depth::automatic;
+  float exposure = 1;  ///< factor on R, G, B before encoding; 8- and 16-bit formats only
+  int threads = 0;     ///< for encoding; 0: all
+};
+
+/// Writes the picture by the ending of `file`: .png (8 or 16 bit, sRGB; R G B [A] or Y [A]), .exr (half or
+/// float, all channels, metadata), .hdr (R G B or Y), .pfm (R G B, Y or the only channel). "-" is stdout and
+/// takes PNG. PNG colours are divided by alpha. An EXR channel with finite values beyond half's range is
+/// written in single precision. The file is written beside its target and renamed into place; on failure
+/// nothing is left behind. The bytes do not depend on the number of threads. Errors: bad_usage where the
+/// format cannot hold the picture, cannot_write.
+Result<void> write_image(const LayeredImage& image, const std::filesystem::path& file,
+                         const WriteOptions& = {});
+/// The same for pixels. A PNG of the picture's own depth, at exposure 1, holds exactly its values.
 Result<void> write_image(const Image& image, const std::filesystem::path& file, const WriteOptions& = {});
 
-/// How two pictures differ, in idiff's terms. Compared on the channels both have, in linear light for float formats
-/// and in stored values (0…1) for 8- and 16-bit ones.
+/// How two pictures differ, in idiff's terms, over all channels. The values are compared as they are: in
+/// linear light or, for 8- and 16-bit files read with ChannelValues::stored, in stored values. Equal
+/// infinities and two NaN do not differ; a NaN and a number differ infinitely.
 struct Difference {
   double mean_error = 0, rms_error = 0, max_error = 0;
-  double psnr_db = 0;  ///< +infinity when equal
+  double psnr_db = 0;  ///< of the largest value, at least 1, over the RMS error; +infinity when equal
   int max_x = 0, max_y = 0;
   std::string max_channel;
   float max_value_a = 0, max_value_b = 0;
   std::int64_t pixels = 0, pixels_over_warn = 0, pixels_over_fail = 0;
 };
 struct DifferenceLimits {
-  double warn = 1e-6, fail = 1e-6;                ///< per-pixel, largest channel
-  double warn_percent = 0, fail_percent = 0;      ///< share of pixels allowed over the limit
-  double hard_warn = 1e30, hard_fail = 1e30;      ///< no pixel may differ by more
+  double warn = 1e-6, fail = 1e-6;            ///< per-pixel, largest channel
+  double warn_percent = 0, fail_percent = 0;  ///< share of pixels allowed over the limit
+  double hard_warn = 1e30, hard_fail = 1e30;  ///< no pixel may differ by more
 };
 enum class Verdict { pass, warning, failure };
 struct Comparison {
@@ -129,7 +150,8 @@ struct Comparison {
   Verdict verdict = Verdict::pass;
 };
 /// Error: sizes or channel names differ.
-Result<Comparison> compare_images(const LayeredImage& a, const LayeredImage& b, const DifferenceLimits& limits);
+Result<Comparison> compare_images(const LayeredImage& a, const LayeredImage& b,
+                                  const DifferenceLimits& limits);
 
 /// A picture of |a − b| · scale over the shared R, G, B (or first) channels, for the eye.
 Result<LayeredImage> difference_picture(const LayeredImage& a, const LayeredImage& b, float scale);

@@ -118,7 +118,7 @@ class Renderer {
   [[nodiscard]] Result<View> camera_view(const std::string& name, int width, int height) const;
   /// A view of the whole scene from in front and a little above, for scenes without a camera.
   [[nodiscard]] View overview(int width, int height) const;
-  /// What a light sees, for debugging views. Error: no such light, or one that shines all round.
+  /// What a light sees: the view of its shadow map. Error: no such light, or one that shines all round.
   [[nodiscard]] Result<View> light_view(const std::string& name) const;
 
   /// Names of all channels that `settings` produce, in the order of a file.
@@ -135,8 +135,10 @@ class Renderer {
   Result<void> set_transform(int node, const glm::dmat4& parent_from_node);
   Result<void> set_light(int light, Light value);
 
-  /// The depth map a light's shadow technique would use: metres along the light's axis, +infinity where nothing is;
-  /// `face` counts the faces of an all-round light. Channel "Z".
+  /// The depth maps of a light's shadow maps: one, or six for a light that shines all round. Channel "Z": metres along
+  /// the map's axis, +infinity where nothing is. Error: no such light, no such face.
+  [[nodiscard]] Result<int> depth_map_count(const std::string& light) const;
+  [[nodiscard]] Result<View> depth_map_view(const std::string& light, int face = 0) const;
   [[nodiscard]] Result<LayeredImage> depth_map(const std::string& light, int face = 0) const;
 
  private:

@@ -139,10 +139,16 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
       planned.settings.resolution =
           placed.light->type == LightType::point ? kDefaultFaceResolution : kDefaultResolution;
     }
-    if (planned.technique == ShadowTechnique::map) planned.shadow_views = shadow_views(placed, frame, planned.settings);
+    if (planned.technique == ShadowTechnique::map) planned = with_shadow_map(std::move(planned), frame);
     plan.lights.push_back(std::move(planned));
   }
   return plan;
+}
+
+PlannedLight with_shadow_map(PlannedLight planned, const Frame& frame) {
+  planned.technique = ShadowTechnique::map;
+  planned.shadow_views = shadow_views(*planned.placed, frame, planned.settings);
+  return planned;
 }
 
 }  // namespace laterna::light

@@ -33,4 +33,7 @@ struct PlanSettings {
 
 LightPlan make_light_plan(const frame::Frame& frame, const PlanSettings& settings);
 
+/// The light as if its technique were `map`.
+PlannedLight with_shadow_map(PlannedLight planned, const frame::Frame& frame);
+
 }  // namespace laterna::light

@@ -173,6 +173,9 @@ struct Renderer::Implementation {
     return job;
   }
 
+  [[nodiscard]] Result<light::PlannedLight> planned_light(const std::string& name) const;
+  [[nodiscard]] Result<light::ShadowView> shadow_view(const std::string& name, int face) const;
+
   Scene scene;
   TaskPool pool;
   InstructionSet set;
@@ -333,40 +336,57 @@ Result<void> Renderer::set_light(int light, Light value) {
   return {};
 }
 
-Result<View> Renderer::light_view(const std::string& name) const {
-  const light::LightPlan plan = light::make_light_plan(implementation_->frame, {ShadowTechnique::map});
-  for (const light::PlannedLight& planned : plan.lights) {
-    if (planned.placed->light->name != name) continue;
-    if (planned.shadow_views.size() == 1) return planned.shadow_views[0].view;
-    return refuse("light \"" + name + "\" shines all round: it has no one view");
+Result<light::PlannedLight> Renderer::Implementation::planned_light(const std::string& name) const {
+  light::LightPlan plan = light::make_light_plan(frame, {ShadowTechnique::map});
+  std::string names;
+  for (light::PlannedLight& planned : plan.lights) {
+    // Where a light asks for no shadow map, the one it would have is shown.
+    if (planned.placed->light->name == name) return light::with_shadow_map(std::move(planned), frame);
+    names += (names.empty() ? "\"" : ", \"") + planned.placed->light->name + "\"";
   }
-  return refuse("the scene has no light \"" + name + "\"");
+  return refuse("the scene has no light \"" + name + "\": " + (names.empty() ? "it has none" : "it has " + names));
 }
 
-Result<LayeredImage> Renderer::depth_map(const std::string& name, int face) const {
+Result<View> Renderer::light_view(const std::string& name) const {
+  const Result<light::PlannedLight> planned = implementation_->planned_light(name);
+  if (!planned) return tl::unexpected(planned.error());
+  if (planned->shadow_views.size() == 1) return planned->shadow_views[0].view;
+  return refuse("light \"" + name + "\" shines all round: it has no one view");
+}
+
+Result<int> Renderer::depth_map_count(const std::string& light) const {
+  return implementation_->planned_light(light).map(
+      [](const light::PlannedLight& planned) { return static_cast<int>(planned.shadow_views.size()); });
+}
+
+Result<light::ShadowView> Renderer::Implementation::shadow_view(const std::string& name, int face) const {
+  const Result<light::PlannedLight> planned = planned_light(name);
+  if (!planned) return tl::unexpected(planned.error());
+  const int count = static_cast<int>(planned->shadow_views.size());
+  if (face >= 0 && face < count) return planned->shadow_views[static_cast<std::size_t>(face)];
+  return refuse("light \"" + name + "\" has " + std::to_string(count) + " depth maps, counted from 0; there is no number " +
+                std::to_string(face));
+}
+
+Result<View> Renderer::depth_map_view(const std::string& light, int face) const {
+  return implementation_->shadow_view(light, face).map([](const light::ShadowView& shadow) { return shadow.view; });
+}
+
+Result<LayeredImage> Renderer::depth_map(const std::string& light, int face) const {
   const Implementation& self = *implementation_;
-  const light::LightPlan plan = light::make_light_plan(self.frame, {ShadowTechnique::map});
-  for (const light::PlannedLight& planned : plan.lights) {
-    if (planned.placed->light->name != name) continue;
-    if (face < 0 || static_cast<std::size_t>(face) >= planned.shadow_views.size()) {
-      return refuse("light \"" + name + "\" has " +
-                                                                            std::to_string(planned.shadow_views.size()) +
-                                                                            " depth maps; there is no number " + std::to_string(face));
-    }
-    const shadow::DepthMap map = render::draw_depth_map(
-        self.draw_context(), planned.shadow_views[static_cast<std::size_t>(face)], planned.settings.caster_faces, false);
-    LayeredImage image;
-    image.width = map.width();
-    image.height = map.height();
-    image.channels.push_back({"Z", {}});
-    std::vector<float>& values = image.channels[0].values;
-    values.reserve(static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height()));
-    for (int y = 0; y < map.height(); ++y) {
-      for (int x = 0; x < map.width(); ++x) values.push_back(static_cast<float>(map.distance(x, y)));
-    }
-    return image;
+  const Result<light::ShadowView> shadow_view = self.shadow_view(light, face);
+  if (!shadow_view) return tl::unexpected(shadow_view.error());
+  const shadow::DepthMap map = render::draw_depth_map(self.draw_context(), *shadow_view, CasterFaces::both, false);
+  LayeredImage image;
+  image.width = map.width();
+  image.height = map.height();
+  image.channels.push_back({"Z", {}});
+  std::vector<float>& values = image.channels[0].values;
+  values.reserve(static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height()));
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) values.push_back(static_cast<float>(map.distance(x, y)));
   }
-  return refuse("the scene has no light \"" + name + "\"");
+  return image;
 }
 
 }  // namespace laterna

@@ -1,0 +1,183 @@
+// laterna info: what is in a scene.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <glm/common.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "outcome.h"
+#include "scene_options.h"
+
+namespace laterna::app {
+namespace {
+
+using Json = nlohmann::json;
+
+std::size_t triangles_of(const Primitive& p) { return (p.indices.empty() ? p.positions.size() : p.indices.size()) / 3; }
+
+struct Totals {
+  std::size_t objects = 0, triangles = 0, vertices = 0;
+  glm::dvec3 low{0}, high{0};
+};
+
+Totals count(const Scene& scene) {
+  Totals totals;
+  const std::vector<glm::dmat4> world = world_from_nodes(scene);
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    const Node& node = scene.nodes[n];
+    if (node.mesh < 0) continue;
+    const std::vector<glm::dmat4> once = {glm::dmat4(1.0)};
+    for (const glm::dmat4& instance : node.node_from_instance.empty() ? once : node.node_from_instance) {
+      const glm::dmat4 m = world[n] * instance;
+      ++totals.objects;
+      for (const Primitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+        totals.triangles += triangles_of(p);
+        for (const glm::vec3& v : p.positions) {
+          const glm::dvec3 w(m * glm::dvec4(v, 1));
+          totals.low = totals.vertices == 0 ? w : glm::min(totals.low, w);
+          totals.high = totals.vertices == 0 ? w : glm::max(totals.high, w);
+          ++totals.vertices;
+        }
+      }
+    }
+  }
+  return totals;
+}
+
+const char* type_name(LightType type) {
+  switch (type) {
+    case LightType::directional: return "directional";
+    case LightType::point: return "point";
+    case LightType::spot: return "spot";
+    case LightType::projector: break;
+  }
+  return "projector";
+}
+
+Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+Json describe_light(const Light& light, const glm::dmat4& world) {
+  Json j = {{"name", light.name},
+            {"type", type_name(light.type)},
+            {"position", vector_json(glm::dvec3(world[3]))},
+            {light.type == LightType::directional ? "lux" : "candela", light.intensity},
+            {"enabled", light.enabled}};
+  if (light.lumens) j["lumens"] = *light.lumens;
+  return j;
+}
+
+Json describe_camera(const Camera& camera, const glm::dmat4& world) {
+  Json j = {{"name", camera.name}, {"position", vector_json(glm::dvec3(world[3]))}};
+  if (camera.projection.is_orthographic) {
+    j["height"] = camera.projection.top - camera.projection.bottom;
+  } else {
+    j["yfov_deg"] = camera.projection.yfov().in_degrees();
+  }
+  return j;
+}
+
+Json describe_pictures(const Scene& scene) {
+  Json all = Json::array();
+  for (const Picture& picture : scene.pictures) {
+    Json j = {{"name", picture.name}};
+    Result<ImageHeader> header = tl::unexpected(Error());
+    if (!picture.encoded.empty()) {
+      header = read_image_header(picture.encoded, picture.name);
+    } else if (!picture.file.empty()) {
+      header = read_image_header(picture.file);
+    }
+    if (header) {
+      j["format"] = header->format;
+      j["size"] = {header->width, header->height};
+      j["channels"] = header->channels;
+    }
+    all.push_back(j);
+  }
+  return all;
+}
+
+Json describe(const Scene& scene) {
+  const Totals totals = count(scene);
+  const std::vector<glm::dmat4> world = world_from_nodes(scene);
+  Json j = {{"objects", totals.objects},
+            {"triangles", totals.triangles},
+            {"vertices", totals.vertices},
+            {"meshes", scene.meshes.size()},
+            {"nodes", scene.nodes.size()},
+            {"bounds", {vector_json(totals.low), vector_json(totals.high)}},
+            {"ambient", {scene.ambient.r, scene.ambient.g, scene.ambient.b}},
+            {"cameras", Json::array()},
+            {"lights", Json::array()},
+            {"materials", Json::array()},
+            {"pictures", describe_pictures(scene)}};
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    const Node& node = scene.nodes[n];
+    if (node.camera >= 0) j["cameras"].push_back(describe_camera(scene.cameras[static_cast<std::size_t>(node.camera)], world[n]));
+    if (node.light >= 0) j["lights"].push_back(describe_light(scene.lights[static_cast<std::size_t>(node.light)], world[n]));
+  }
+  for (const Material& m : scene.materials) {
+    const char* alpha = m.alpha_mode == AlphaMode::mask ? "mask" : m.alpha_mode == AlphaMode::blend ? "blend" : "opaque";
+    j["materials"].push_back({{"name", m.name}, {"alpha", alpha}, {"double_sided", m.double_sided}, {"unlit", m.unlit}});
+  }
+  return j;
+}
+
+std::string triple(const Json& v) {
+  return fmt::format("{:.3f} {:.3f} {:.3f}", v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+}
+
+void print_table(const Json& j) {
+  fmt::print("{:<12} {}\n{:<12} {}\n{:<12} {}\n", "objects", j["objects"].get<std::size_t>(), "triangles",
+             j["triangles"].get<std::size_t>(), "vertices", j["vertices"].get<std::size_t>());
+  fmt::print("{:<12} {} to {} m\n", "bounds", triple(j["bounds"][0]), triple(j["bounds"][1]));
+  fmt::print("{:<12} {}\n", "materials", j["materials"].size());
+  fmt::print("{:<12} {}\n", "pictures", j["pictures"].size());
+  for (const Json& p : j["pictures"]) {
+    const std::string size = p.contains("size") ? fmt::format("{} {}x{}", p["format"].get<std::string>(), p["size"][0].get<int>(), p["size"][1].get<int>()) : "in memory";
+    fmt::print("  {:<18} {}\n", size, p["name"].get<std::string>());
+  }
+  fmt::print("{:<12} {}\n", "cameras", j["cameras"].size());
+  for (const Json& c : j["cameras"]) {
+    const std::string field = c.contains("yfov_deg") ? fmt::format("{:.1f}°", c["yfov_deg"].get<double>())
+                                                     : fmt::format("{:.3g} m high", c["height"].get<double>());
+    fmt::print("  {:<18} at {}, {}\n", c["name"].get<std::string>(), triple(c["position"]), field);
+  }
+  fmt::print("{:<12} {}\n", "lights", j["lights"].size());
+  for (const Json& l : j["lights"]) {
+    const bool is_sun = l.contains("lux");
+    const std::string strength = l.contains("lumens") ? fmt::format("{:.4g} lm", l["lumens"].get<double>())
+                                 : is_sun             ? fmt::format("{:.4g} lx", l["lux"].get<double>())
+                                                      : fmt::format("{:.4g} cd", l["candela"].get<double>());
+    fmt::print("  {:<18} {:<12} at {}, {}{}\n", l["name"].get<std::string>(), l["type"].get<std::string>(),
+               triple(l["position"]), strength, l["enabled"].get<bool>() ? "" : ", off");
+  }
+}
+
+}  // namespace
+
+void declare_info(CLI::App& app, Run& run) {
+  struct Options {
+    SceneOptions scene;
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("info", "tell what is in scenes: sizes, cameras, lights, pictures");
+  options->scene.declare_scene(*command);
+  command->add_flag("--json", options->json, "as JSON, with all there is");
+  command->callback([options, &run] {
+    run = [options] {
+      const Result<Scene> scene = options->scene.load();
+      if (!scene) return report(scene.error());
+      const Json j = describe(*scene);
+      if (options->json) {
+        fmt::print("{}\n", j.dump(2));
+      } else {
+        print_table(j);
+      }
+      return static_cast<int>(kOk);
+    };
+  });
+}
+
+}  // namespace laterna::app

@@ -1,0 +1,92 @@
+// laterna inspect: one point in the five coordinate systems of Segal et al. 1992.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "laterna/measure.h"
+#include "outcome.h"
+#include "scene_options.h"
+
+namespace laterna::app {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Options {
+  SceneOptions scene;
+  ViewOptions view;
+  std::string light, point;
+  bool json = false;
+};
+
+Json matrix_json(const glm::dmat4& m) {
+  Json rows = Json::array();
+  for (int r = 0; r < 4; ++r) rows.push_back({m[0][r], m[1][r], m[2][r], m[3][r]});
+  return rows;
+}
+
+Json report_json(const PointReport& p) {
+  return {{"world", {p.world.x, p.world.y, p.world.z}},
+          {"clip", {p.clip.x, p.clip.y, p.clip.z, p.clip.w}},
+          {"screen", {p.screen.x, p.screen.y}},
+          {"pixel", {p.pixel.x, p.pixel.y}},
+          {"light", {p.light.x, p.light.y, p.light.z, p.light.w}},
+          {"texture", {p.texture.x, p.texture.y, p.texture.z}},
+          {"distance", p.distance},
+          {"is_ahead", p.is_ahead},
+          {"is_inside", p.is_inside},
+          {"clip_from_world", matrix_json(p.clip_from_world)},
+          {"light_from_world", matrix_json(p.light_from_world)},
+          {"texture_from_world", matrix_json(p.texture_from_world)}};
+}
+
+void print_report(const PointReport& p) {
+  fmt::print("world    {:.9g} {:.9g} {:.9g}   m\n", p.world.x, p.world.y, p.world.z);
+  fmt::print("clip     {:.9g} {:.9g} {:.9g} {:.9g}   M_c · world\n", p.clip.x, p.clip.y, p.clip.z, p.clip.w);
+  fmt::print("screen   {:.9g} {:.9g}   clip x/w, y/w; pixel {:.3f} {:.3f}\n", p.screen.x, p.screen.y, p.pixel.x, p.pixel.y);
+  fmt::print("light    {:.9g} {:.9g} {:.9g} {:.9g}   M_l · world\n", p.light.x, p.light.y, p.light.z, p.light.w);
+  fmt::print("texture  {:.9g} {:.9g}, depth {:.9g}   from the top-left corner of the slide\n", p.texture.x, p.texture.y, p.texture.z);
+  fmt::print("{:.6g} m along the light's axis, {}\n", p.distance,
+             !p.is_ahead ? "behind the lens" : p.is_inside ? "inside its frame" : "outside its frame");
+}
+
+int run_inspect(const Options& options) {
+  glm::dvec3 point;
+  char rest = 0;
+  if (std::sscanf(options.point.c_str(), "%lf,%lf,%lf%c", &point.x, &point.y, &point.z, &rest) != 3) {
+    return report(bad_option(fmt::format("--point: expected x,y,z in metres, got \"{}\"", options.point)).value());
+  }
+  const Result<ViewOptions::Size> size = options.view.parse_size();
+  if (!size) return report(size.error());
+  const Result<Renderer> renderer = options.scene.make_renderer();
+  if (!renderer) return report(renderer.error());
+  const Result<View> view = options.view.find(*renderer, *size);
+  if (!view) return report(view.error());
+  const Result<PointReport> found = inspect_point(*renderer, *view, size->width, size->height, options.light, point);
+  if (!found) return report(found.error());
+  if (options.json) {
+    fmt::print("{}\n", report_json(*found).dump(2));
+  } else {
+    print_report(*found);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void declare_inspect(CLI::App& app, Run& run) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("inspect", "a point in world, clip, screen, light and texture coordinates");
+  options->scene.declare_scene(*command);
+  command->add_option("--light", options->light, "light by name")->required();
+  command->add_option("--point", options->point, "x,y,z in metres")->required();
+  options->view.declare(*command);
+  command->add_flag("--json", options->json, "as JSON, with the matrices");
+  command->footer("\nExample:\n  laterna inspect room.glb --rig stage.json --light lantern --point 0,1.2,-3\n");
+  command->callback([options, &run] { run = [options] { return run_inspect(*options); }; });
+}
+
+}  // namespace laterna::app

@@ -1,0 +1,67 @@
+// The command line: reads which command is wanted, runs it, and turns how it ended into an exit code.
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "laterna/build_info.h"
+#include "laterna/output.h"
+#include "outcome.h"
+
+namespace {
+
+// Ctrl-C leaves no half-written file.
+extern "C" void stop(int signal) {
+  laterna::remove_pending_outputs();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+constexpr const char* kDescription =
+    "laterna: what projected light does to a 3D scene. Slide projectors, spotlights and suns\n"
+    "with shadows, rendered without a GPU or a display; the same picture on every machine.\n";
+
+constexpr const char* kFooter =
+    "\nExamples:\n"
+    "  laterna render scene.glb -o picture.png\n"
+    "  laterna render house.glb --rig stage.json --camera front -o picture.png --exposure auto\n"
+    "  laterna render scene.glb --rig stage.json -o layers.exr --layers light,visibility,depth\n"
+    "  laterna info scene.glb\n"
+    "\n'laterna COMMAND --help' tells more about a command.\n"
+    "Exit codes: 0 ok, 1 a comparison failed, 2 bad usage, 3 bad input, 4 could not write.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, stop);
+  CLI::App app(kDescription, "laterna");
+  app.footer(kFooter);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "laterna " + laterna::version());
+  laterna::app::Run run;
+  for (const laterna::app::DeclareCommand declare :
+       {laterna::app::declare_render, laterna::app::declare_info, laterna::app::declare_inspect,
+        laterna::app::declare_depthmap, laterna::app::declare_diff, laterna::app::declare_bench,
+        laterna::app::declare_doctor}) {
+    declare(app, run);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int code = app.exit(e);
+    return code == 0 ? laterna::app::kOk : laterna::app::kBadUsage;
+  }
+  if (!run) return laterna::app::kOk;
+  const int code = run();
+  // A full pipe or disk shows itself when the last of the output leaves.
+  if (std::fflush(stdout) != 0) {
+    fmt::print(stderr, "laterna: error: cannot write to standard output\n");
+    return laterna::app::kCannotWrite;
+  }
+  return code;
+}

@@ -1,0 +1,13 @@
+// A line on the terminal that tells how far a long job is.
+#pragma once
+
+#include <string>
+
+#include "laterna/render.h"
+
+namespace laterna::app {
+
+/// Does nothing unless stderr is a terminal and the job lasts.
+Progress progress_line(std::string what);
+
+}  // namespace laterna::app

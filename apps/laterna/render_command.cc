@@ -1,0 +1,289 @@
+// laterna render: pictures of scenes.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "laterna/measure.h"
+#include "outcome.h"
+#include "progress_line.h"
+#include "scene_options.h"
+
+namespace laterna::app {
+namespace {
+
+const std::map<std::string, ShadingModel> kShading = {
+    {"papers", ShadingModel::papers}, {"phong", ShadingModel::phong}, {"pbr", ShadingModel::pbr}};
+const std::map<std::string, Passes> kPasses = {{"single", Passes::single}, {"multi", Passes::multi}};
+const std::map<std::string, Interpolation> kInterpolation = {{"perspective", Interpolation::perspective},
+                                                             {"affine", Interpolation::affine}};
+const std::map<std::string, WriteOptions::Depth> kDepth = {{"auto", WriteOptions::Depth::automatic},
+                                                           {"8", WriteOptions::Depth::bits8},
+                                                           {"16", WriteOptions::Depth::bits16},
+                                                           {"half", WriteOptions::Depth::half},
+                                                           {"float", WriteOptions::Depth::single}};
+
+template <class Value>
+std::vector<std::string> names_of(const std::map<std::string, Value>& map) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : map) names.push_back(name);
+  return names;
+}
+
+struct RenderOptions {
+  SceneOptions scene;
+  ViewOptions view;
+  std::string output;
+  std::string shadows = "map", shading = "pbr", passes = "single", interpolation = "perspective", depth = "auto";
+  std::string exposure = "0", background, debug;
+  std::vector<std::string> layers;
+  int samples = 1, anisotropy = 8;
+  bool json = false;
+};
+
+void list_all_techniques() {
+  for (const TechniqueDescription& t : list_techniques()) fmt::print("{:<12} {}\n", t.name, t.meaning);
+}
+void list_all_layers() {
+  for (const LayerDescription& l : list_layers()) fmt::print("{:<12} {:<36} {}\n", l.name, l.channels, l.meaning);
+}
+
+Result<RenderSettings> parse_settings(const RenderOptions& options) {
+  RenderSettings settings;
+  const Result<ViewOptions::Size> size = options.view.parse_size();
+  if (!size) return tl::unexpected(size.error());
+  settings.width = size->width;
+  settings.height = size->height;
+  settings.samples = options.samples;
+  settings.anisotropy = options.anisotropy;
+  settings.shading = kShading.at(options.shading);
+  settings.passes = kPasses.at(options.passes);
+  settings.interpolation = kInterpolation.at(options.interpolation);
+  for (const TechniqueDescription& t : list_techniques()) {
+    if (t.name == options.shadows) settings.shadows = t.technique;
+  }
+  for (const std::string& name : options.layers) {
+    for (const LayerDescription& layer : list_layers()) {
+      if (name == layer.name || name == "all") settings.layers.push_back(layer.layer);
+    }
+  }
+  return settings;
+}
+
+/// The picture's background: none, or linear light from sRGB numbers.
+Result<void> set_background(const std::string& text, Scene& scene) {
+  if (text.empty() || text == "transparent") return {};
+  float c[3];
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%f,%f,%f%c", &c[0], &c[1], &c[2], &rest) != 3 ||
+      !std::all_of(c, c + 3, [](float v) { return v >= 0 && std::isfinite(v); })) {
+    return bad_option(fmt::format("--background: expected \"transparent\" or R,G,B in linear light, got \"{}\"", text));
+  }
+  scene.background = glm::vec3(c[0], c[1], c[2]);
+  return {};
+}
+
+/// A factor; 0 stands for "auto".
+Result<float> parse_exposure(const std::string& text) {
+  if (text == "auto") return 0.0F;
+  char* end = nullptr;
+  const double stops = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != 0 || !(std::abs(stops) <= 60)) {
+    return bad_option(fmt::format("--exposure: expected stops from -60 to 60, or \"auto\", got \"{}\"", text));
+  }
+  return static_cast<float>(std::exp2(stops));
+}
+
+bool has_ending(const std::string& name, const char* ending) {
+  return name.size() >= std::strlen(ending) && name.compare(name.size() - std::strlen(ending), std::string::npos, ending) == 0;
+}
+
+/// Keeps users from wondering at white or black pictures.
+void advise_exposure(const LayeredImage& image, float exposure) {
+  std::size_t seen = 0;
+  std::size_t white = 0;
+  std::size_t dark = 0;
+  const std::vector<float>& alpha = image.find("A")->values;
+  for (std::size_t i = 0; i < alpha.size(); ++i) {
+    if (alpha[i] <= 0) continue;
+    const float brightest = exposure * std::max({image.channels[0].values[i], image.channels[1].values[i], image.channels[2].values[i]});
+    ++seen;
+    white += brightest >= 1 ? 1U : 0U;
+    dark += brightest < 0.002F ? 1U : 0U;
+  }
+  if (seen == 0) fmt::print(stderr, "laterna: note: nothing of the scene is in the picture\n");
+  if (2 * white > seen) fmt::print(stderr, "laterna: note: more than half of the picture is over-exposed: try --exposure auto\n");
+  if (seen > 0 && 10 * dark > 9 * seen) fmt::print(stderr, "laterna: note: nearly all of the picture is black: try --exposure auto\n");
+}
+
+nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double write_ms) {
+  nlohmann::json memory = nlohmann::json::array();
+  for (const auto& light : s.shadow_memory) {
+    memory.push_back({{"light", light.light}, {"maps", light.maps}, {"bytes", light.bytes}});
+  }
+  return {{"load_ms", load_ms},       {"plan_ms", s.plan_ms},     {"shadow_ms", s.shadow_ms},
+          {"bin_ms", s.bin_ms},       {"shade_ms", s.shade_ms},   {"render_ms", s.total_ms},
+          {"write_ms", write_ms},     {"triangles", s.triangles}, {"triangles_drawn", s.triangles_drawn},
+          {"maps_drawn", s.maps_drawn}, {"maps_kept", s.maps_kept}, {"shadow_memory", memory}};
+}
+
+class RenderCommand {
+ public:
+  explicit RenderCommand(const RenderOptions& options) : options_(options) {}
+
+  int run() {
+    const auto start = std::chrono::steady_clock::now();
+    const Result<RenderSettings> settings = parse_settings(options_);
+    if (!settings) return report(settings.error());
+    const Result<float> exposure = parse_exposure(options_.exposure);
+    if (!exposure) return report(exposure.error());
+    if (const std::string fault = find_output_fault(*settings); !fault.empty()) return report(bad_option(fault).value());
+    Result<Renderer> renderer = make_renderer();
+    if (!renderer) return report(renderer.error());
+    const Result<View> view = options_.view.find(*renderer, {settings->width, settings->height});
+    if (!view) return report(view.error());
+    load_ms_ = elapsed(start);
+    return draw(*renderer, *view, *settings, *exposure);
+  }
+
+ private:
+  static double elapsed(std::chrono::steady_clock::time_point since) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
+  }
+
+  [[nodiscard]] std::string find_output_fault(const RenderSettings& settings) const {
+    if (!settings.layers.empty() && !has_ending(options_.output, ".exr")) {
+      return "--layers: only OpenEXR holds layers: give an output that ends in .exr";
+    }
+    if (options_.debug.empty() || options_.debug == "depth" || options_.debug.rfind("project-depth:", 0) == 0) return {};
+    return fmt::format("--debug: expected depth or project-depth:LIGHT, got \"{}\"", options_.debug);
+  }
+
+  Result<Renderer> make_renderer() const {
+    const Result<RendererOptions> machine = options_.scene.renderer_options();
+    if (!machine) return tl::unexpected(machine.error());
+    Result<Scene> scene = options_.scene.load();
+    if (!scene) return tl::unexpected(std::move(scene.error()));
+    if (Result<void> set = set_background(options_.background, *scene); !set) return tl::unexpected(set.error());
+    const std::size_t told = scene->warnings.size();
+    Result<Renderer> renderer = Renderer::create(std::move(*scene), *machine);
+    if (renderer) {
+      const std::vector<Diagnostic>& all = renderer->scene().warnings;
+      report_warnings({all.begin() + static_cast<std::ptrdiff_t>(told), all.end()});
+    }
+    return renderer;
+  }
+
+  int draw(const Renderer& renderer, const View& view, const RenderSettings& settings, float exposure) {
+    RenderStatistics statistics;
+    Result<LayeredImage> image = draw_image(renderer, view, settings, statistics);
+    if (!image) return report(image.error());
+    WriteOptions write;
+    write.depth = kDepth.at(options_.depth);
+    write.threads = renderer.threads();
+    const bool is_debug = !options_.debug.empty();
+    if (!is_debug) {
+      write.exposure = exposure == 0 ? automatic_exposure(*image) : exposure;
+      if (!has_ending(options_.output, ".exr")) advise_exposure(*image, write.exposure);
+    }
+    // Formats for the screen hold no coverage unless it was asked for.
+    if (!is_debug && !has_ending(options_.output, ".exr") && options_.background != "transparent") image->channels.resize(3);
+    const auto write_start = std::chrono::steady_clock::now();
+    if (Result<void> written = write_image(*image, options_.output, write); !written) return report(written.error());
+    if (options_.json) {
+      nlohmann::json json = statistics_json(statistics, load_ms_, elapsed(write_start));
+      json["output"] = options_.output;
+      json["size"] = {image->width, image->height};
+      json["exposure"] = write.exposure;
+      fmt::print("{}\n", json.dump(2));
+    }
+    return kOk;
+  }
+
+  Result<LayeredImage> draw_image(const Renderer& renderer, const View& view, const RenderSettings& settings,
+                                  RenderStatistics& statistics) const {
+    constexpr std::string_view kProjectDepth = "project-depth:";
+    if (options_.debug.rfind(kProjectDepth, 0) == 0) {
+      return projected_depth(renderer, view, settings, options_.debug.substr(kProjectDepth.size()));
+    }
+    if (options_.debug != "depth") return renderer.render(view, settings, progress_line("rendering"), &statistics);
+    RenderSettings with_depth = settings;
+    with_depth.layers = {Layer::depth};
+    const Result<LayeredImage> image = renderer.render(view, with_depth, progress_line("rendering"), &statistics);
+    if (!image) return image;
+    return depth_picture(*image);
+  }
+
+  const RenderOptions& options_;
+  double load_ms_ = 0;
+};
+
+constexpr const char* kFooter =
+    "\nWithout a light in SCENE or a rig, a default sun shines. Lights and cameras come from glTF\n"
+    "(KHR_lights_punctual) or from a rig: JSON with \"cameras\" and \"lights\", a projector as\n"
+    "  {\"name\": \"lantern\", \"type\": \"projector\", \"position\": [0,2,5], \"target\": [0,1,0],\n"
+    "   \"yfov_deg\": 30, \"slide\": \"slide.png\", \"candela\": 50}\n"
+    "\nExamples:\n"
+    "  laterna render room.glb --rig stage.json -o room.png --size 1920x1080 --samples 4\n"
+    "  laterna render room.glb --rig stage.json -o room.exr --layers light,lux,visibility\n"
+    "  laterna render room.glb --rig stage.json --from-light lantern -o what-the-lantern-sees.png\n"
+    "  laterna render room.glb -o - | display\n";
+
+void declare_picture_options(CLI::App& command, RenderOptions& o) {
+  command.add_option("--samples", o.samples, "samples per pixel: 1, 2, 4, 8 or 16")
+      ->check(CLI::IsMember({1, 2, 4, 8, 16}))
+      ->capture_default_str();
+  command.add_option("--shadows", o.shadows, "technique for lights that name none; --list-techniques tells more")
+      ->check(CLI::IsMember({"none", "map", "raytraced"}))
+      ->capture_default_str();
+  command.add_option("--shading", o.shading, "papers: colour times light, nothing else; phong; pbr: as glTF defines it")
+      ->check(CLI::IsMember(names_of(kShading)))
+      ->capture_default_str();
+  command.add_option("--passes", o.passes, "multi: the papers' frame-buffer algorithms, literally; same picture, slower")
+      ->check(CLI::IsMember(names_of(kPasses)))
+      ->capture_default_str();
+  command.add_option("--interpolation", o.interpolation, "affine: deliberately wrong, shows texture swimming")
+      ->check(CLI::IsMember(names_of(kInterpolation)))
+      ->capture_default_str();
+  command.add_option("--anisotropy", o.anisotropy, "most probes along a stretched texture footprint, 1 to 16")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void declare_render(CLI::App& app, Run& run) {
+  auto options = std::make_shared<RenderOptions>();
+  RenderOptions& o = *options;
+  CLI::App* command = app.add_subcommand("render", "draw a picture of scenes lit by projectors, spotlights and suns");
+  command->footer(kFooter);
+  o.scene.declare_scene(*command);
+  command->add_option("-o,--output", o.output, "picture to write: .png, .exr, .hdr or .pfm; - is PNG on standard output")->required();
+  o.view.declare(*command);
+  declare_picture_options(*command, o);
+  std::vector<std::string> layers = {"all"};
+  for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);
+  command->add_option("--layers", o.layers, "further channels of an .exr, by comma; --list-layers tells which")
+      ->delimiter(',')
+      ->check(CLI::IsMember(layers));
+  command->add_option("--exposure", o.exposure, "stops, or auto; for .png and .hdr")->capture_default_str();
+  command->add_option("--background", o.background, "R,G,B in linear light, or transparent (PNG with alpha)");
+  command->add_option("--depth", o.depth, "of the output: 8 or 16 bits (PNG), half or float (EXR)")
+      ->check(CLI::IsMember(names_of(kDepth)))
+      ->capture_default_str();
+  command->add_option("--debug", o.debug, "depth: grey ramp; project-depth:LIGHT: a light's depth map thrown on the scene");
+  o.scene.declare_machine(*command);
+  command->add_flag("--json", o.json, "print what it cost, to standard output");
+  command->add_flag_callback("--list-techniques", [] { list_all_techniques(); throw CLI::Success(); }, "print shadow techniques and end");
+  command->add_flag_callback("--list-layers", [] { list_all_layers(); throw CLI::Success(); }, "print layers and end");
+  command->callback([options, &run] { run = [options] { return RenderCommand(*options).run(); }; });
+}
+
+}  // namespace laterna::app

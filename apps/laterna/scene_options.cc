@@ -1,0 +1,101 @@
+#include "scene_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/Validators.hpp>
+#include <charconv>
+#include <map>
+
+#include "outcome.h"
+
+namespace laterna::app {
+
+tl::unexpected<Error> bad_option(std::string message) {
+  return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}));
+}
+
+void SceneOptions::declare_scene(CLI::App& command) {
+  command.add_option("SCENE", files, "glTF, GLB, OBJ, PLY, STL, MD2, …; several are merged")->required();
+  command.add_option("--rig", rigs, "JSON with cameras, lights and projectors by name; may be given several times");
+  command.add_option("--up", up, "which axis points up in formats that do not say")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
+  command.add_option("--unit", unit, "what one unit is in formats that do not say")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in"}))
+      ->capture_default_str();
+}
+
+void SceneOptions::declare_machine(CLI::App& command) {
+  command.add_option("--threads", threads, "0: one per processor; the picture is the same for any number")
+      ->capture_default_str();
+  command.add_option("--isa", instruction_set, "instruction set: scalar, sse4, avx2, avx512 or neon; the picture is the same");
+}
+
+Result<Scene> SceneOptions::load() const {
+  static const std::map<std::string, double> kMetres = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
+  LoadOptions options;
+  options.up = up == "z" ? LoadOptions::Up::z : LoadOptions::Up::y;
+  options.metres_per_unit = kMetres.at(unit);
+  options.rigs.assign(rigs.begin(), rigs.end());
+  Result<Scene> scene = load_scene({files.begin(), files.end()}, options);
+  if (scene) report_warnings(scene->warnings);
+  return scene;
+}
+
+Result<RendererOptions> SceneOptions::renderer_options() const {
+  RendererOptions options;
+  options.threads = threads;
+  if (instruction_set.empty()) return options;
+  options.instruction_set = instruction_set_named(instruction_set);
+  if (!options.instruction_set) {
+    return bad_option(fmt::format("--isa: there is no instruction set \"{}\"; there are scalar, sse4, avx2, avx512 and neon", instruction_set));
+  }
+  return options;
+}
+
+Result<Renderer> SceneOptions::make_renderer() const {
+  const Result<RendererOptions> options = renderer_options();
+  if (!options) return tl::unexpected(options.error());
+  Result<Scene> scene = load();
+  if (!scene) return tl::unexpected(std::move(scene.error()));
+  const std::size_t told = scene->warnings.size();
+  Result<Renderer> renderer = Renderer::create(std::move(*scene), *options);
+  if (renderer) {
+    const std::vector<Diagnostic>& all = renderer->scene().warnings;
+    report_warnings({all.begin() + static_cast<std::ptrdiff_t>(told), all.end()});
+  }
+  return renderer;
+}
+
+void ViewOptions::declare(CLI::App& command) {
+  command.add_option("--camera", camera, "camera by name; without it the scene's first, or an overview");
+  command.add_option("--from-light", from_light, "look with a light's eyes instead");
+  command.add_option("--size", size, "width x height in pixels")->capture_default_str();
+}
+
+Result<ViewOptions::Size> ViewOptions::parse_size() const {
+  Size parsed{};
+  const std::size_t x = size.find('x');
+  const auto number = [&](std::string_view text, int& value) {
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return fault == std::errc() && end == text.data() + text.size() && value > 0;
+  };
+  const std::string_view text = size;
+  if (x == std::string::npos || !number(text.substr(0, x), parsed.width) || !number(text.substr(x + 1), parsed.height)) {
+    return bad_option(fmt::format("--size: expected WIDTHxHEIGHT such as 1920x1080, got \"{}\"", size));
+  }
+  return parsed;
+}
+
+Result<View> ViewOptions::find(const Renderer& renderer, const Size& picture) const {
+  if (!from_light.empty()) {
+    if (!camera.empty()) return bad_option("--camera and --from-light exclude each other");
+    return renderer.light_view(from_light);
+  }
+  Result<View> view = renderer.camera_view(camera, picture.width, picture.height);
+  if (view || !camera.empty()) return view;
+  fmt::print(stderr, "laterna: note: the scene has no camera: showing all of it\n");
+  return renderer.overview(picture.width, picture.height);
+}
+
+}  // namespace laterna::app

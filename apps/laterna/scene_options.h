@@ -1,0 +1,50 @@
+// Options shared by commands that read scenes.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "laterna/render.h"
+
+namespace laterna::app {
+
+struct SceneOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> rigs;
+  std::string up = "y";
+  std::string unit = "m";
+  int threads = 0;
+  std::string instruction_set;
+
+  /// SCENE..., --rig, --up, --unit.
+  void declare_scene(CLI::App& command);
+  /// --threads, --isa.
+  void declare_machine(CLI::App& command);
+
+  [[nodiscard]] Result<Scene> load() const;
+  [[nodiscard]] Result<RendererOptions> renderer_options() const;
+  /// Loads the scene, tells its warnings, and makes it ready.
+  [[nodiscard]] Result<Renderer> make_renderer() const;
+};
+
+struct ViewOptions {
+  std::string camera;
+  std::string from_light;
+  std::string size = "1280x720";
+
+  /// --camera, --from-light, --size.
+  void declare(CLI::App& command);
+  struct Size {
+    int width, height;
+  };
+  [[nodiscard]] Result<Size> parse_size() const;
+  /// The named camera; the first; without one, an overview. Tells which, where none was asked for.
+  [[nodiscard]] Result<View> find(const Renderer& renderer, const Size& size) const;
+};
+
+/// An error about an option.
+tl::unexpected<Error> bad_option(std::string message);
+
+}  // namespace laterna::app

@@ -1,0 +1,39 @@
+// Looking into a picture: a point in every coordinate system, and depth made visible.
+#pragma once
+
+#include <string>
+
+#include "laterna/render.h"
+
+namespace laterna {
+
+/// A world point in the five coordinate systems of Segal et al. 1992, section 2 and 3.
+struct PointReport {
+  glm::dvec3 world{0};
+  glm::dvec4 clip{0};      ///< clip_from_world · world
+  glm::dvec2 screen{0};    ///< clip x and y over w, −1…1, y up
+  glm::dvec2 pixel{0};     ///< (0, 0) the top-left corner of the picture
+  glm::dvec4 light{0};     ///< light_from_world · world, homogeneous (x^l, y^l, z^l, w^l)
+  glm::dvec3 texture{0};   ///< slide or shadow map: s, t from the top-left corner, 0…1, and depth 0…1
+  double distance = 0;     ///< from the light along its axis, metres
+  bool is_ahead = false;   ///< in front of the lens
+  bool is_inside = false;  ///< and within the frame
+
+  glm::dmat4 clip_from_world{1.0};     ///< M_c
+  glm::dmat4 light_from_world{1.0};    ///< M_l
+  glm::dmat4 texture_from_world{1.0};  ///< M_l with scale and bias folded in
+};
+/// Error: no light of that name, or one that shines all round.
+Result<PointReport> inspect_point(const Renderer& renderer, const View& camera, int width, int height,
+                                  const std::string& light, const glm::dvec3& point_ws);
+
+/// Grey ramp of a channel "Z": the nearest is light, the farthest dark, where nothing is is white (MIT 6.837, lecture
+/// 20, slide 11). R, G and B, linear.
+Result<LayeredImage> depth_picture(const LayeredImage& depth);
+
+/// The light's depth map thrown back on the scene (document 003): every surface shows the grey that the map holds for
+/// it. Surfaces outside the map are black. The sky is the background.
+Result<LayeredImage> projected_depth(const Renderer& renderer, const View& camera, const RenderSettings& settings,
+                                     const std::string& light);
+
+}  // namespace laterna

@@ -1,0 +1,120 @@
+// Pictures to files: checks, the choice of format by the file's name, and writing.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+#include <set>
+
+#include "base/output_file.h"
+#include "image/encoder.h"
+#include "image/file_ending.h"
+#include "image/layers.h"
+
+namespace laterna::image {
+namespace {
+
+using Encode = Result<EncodedBytes> (*)(const LayeredImage&, const WriteOptions&, std::string_view);
+
+struct WrittenFormat {
+  std::string_view ending;
+  Encode encode;
+};
+constexpr std::array<WrittenFormat, 4> kFormats = {
+    {{".png", encode_png}, {".exr", encode_exr}, {".hdr", encode_radiance}, {".pfm", encode_pfm}}};
+
+bool is_png(const std::string& name) { return name == "-" || has_ending(name, ".png"); }
+
+Result<Encode> find_encoder(const std::string& name) {
+  if (is_png(name)) return kFormats[0].encode;
+  const auto found = std::find_if(kFormats.begin(), kFormats.end(), [&](const WrittenFormat& format) {
+    return has_ending(name, format.ending);
+  });
+  if (found == kFormats.end()) return cannot_hold(name, "the name must end in .png, .exr, .hdr or .pfm");
+  return found->encode;
+}
+
+std::string find_fault(const WriteOptions& options) {
+  if (!std::isfinite(options.exposure) || options.exposure < 0)
+    return "the exposure must be a factor of 0 or more";
+  if (options.threads < 0) return "the number of threads must be 0 or more";
+  return {};
+}
+
+std::string find_fault(const LayeredImage& image) {
+  const auto is_side = [](int side) { return side >= 1 && side <= kMaxImageSide; };
+  if (!is_side(image.width) || !is_side(image.height)) {
+    return "the picture is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+           " pixels; each side must be from 1 to " + std::to_string(kMaxImageSide);
+  }
+  if (image.channels.empty()) return "the picture has no channels";
+  std::set<std::string_view> names;
+  for (const Channel& channel : image.channels) {
+    if (channel.name.empty()) return "a channel has no name";
+    if (!names.insert(channel.name).second) return "two channels are named \"" + channel.name + "\"";
+    if (channel.values.size() !=
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
+      return "channel \"" + channel.name + "\" has " + std::to_string(channel.values.size()) +
+             " values; the picture is " + std::to_string(image.width) + " x " + std::to_string(image.height);
+    }
+  }
+  return {};
+}
+
+// True where a PNG can hold the pixels as they are.
+bool is_stored_depth(const Image& image, const WriteOptions& options) {
+  using Depth = WriteOptions::Depth;
+  if (options.exposure != 1 || image.type() == PixelType::f32) return false;
+  return options.depth == Depth::automatic ||
+         options.depth == (image.type() == PixelType::u8 ? Depth::bits8 : Depth::bits16);
+}
+
+template <class Write>
+Result<void> without_exceptions(const std::string& name, Write write) {
+  try {
+    return write();
+  } catch (const std::bad_alloc&) {
+    return tl::unexpected(
+        Error(Failure::cannot_write, Diagnostic{name, {}, "not enough memory to encode the picture"}));
+  }
+}
+
+}  // namespace
+
+}  // namespace laterna::image
+
+namespace laterna {
+
+Result<void> write_image(const LayeredImage& picture, const std::filesystem::path& file,
+                         const WriteOptions& options) {
+  const std::string name = file.string();
+  return image::without_exceptions(name, [&]() -> Result<void> {
+    const Result<image::Encode> encode = image::find_encoder(name);
+    if (!encode) return tl::unexpected(encode.error());
+    if (std::string fault = image::find_fault(options); !fault.empty()) {
+      return image::cannot_hold(name, std::move(fault));
+    }
+    if (std::string fault = image::find_fault(picture); !fault.empty()) {
+      return image::cannot_hold(name, std::move(fault));
+    }
+    const Result<image::EncodedBytes> bytes = (*encode)(picture, options, name);
+    if (!bytes) return tl::unexpected(bytes.error());
+    return write_file(file, *bytes);
+  });
+}
+
+Result<void> write_image(const Image& picture, const std::filesystem::path& file,
+                         const WriteOptions& options) {
+  const std::string name = file.string();
+  return image::without_exceptions(name, [&]() -> Result<void> {
+    if (picture.empty()) return image::cannot_hold(name, "the picture is empty");
+    if (!image::is_png(name) || !image::is_stored_depth(picture, options)) {
+      return write_image(image::layers_from_image(picture, ChannelValues::linear), file, options);
+    }
+    if (std::string fault = image::find_fault(options); !fault.empty()) {
+      return image::cannot_hold(name, std::move(fault));
+    }
+    return write_file(file, image::encode_png(picture, options.threads));
+  });
+}
+
+}  // namespace laterna

@@ -1,0 +1,29 @@
+#include "laterna/measure.h"
+
+namespace laterna {
+
+Result<PointReport> inspect_point(const Renderer& renderer, const View& camera, int width, int height,
+                                  const std::string& light, const glm::dvec3& point_ws) {
+  const Result<View> light_view = renderer.light_view(light);
+  if (!light_view) return tl::unexpected(light_view.error());
+  PointReport report;
+  report.world = point_ws;
+  report.clip_from_world = camera.clip_from_world();
+  report.light_from_world = light_view->clip_from_world();
+  report.texture_from_world = light_view->image_from_world();
+
+  const glm::dvec4 world(point_ws, 1);
+  report.clip = report.clip_from_world * world;
+  report.screen = glm::dvec2(report.clip) / report.clip.w;
+  report.pixel = {(report.screen.x + 1) / 2 * width, (1 - report.screen.y) / 2 * height};
+  report.light = report.light_from_world * world;
+  const glm::dvec4 texture = report.texture_from_world * world;
+  report.texture = glm::dvec3(texture) / texture.w;
+  report.distance = -(light_view->view_from_world() * world).z;
+  report.is_ahead = light_view->projection.is_orthographic || report.distance > 0;
+  const auto in_unit = [](double v) { return v >= 0 && v <= 1; };
+  report.is_inside = report.is_ahead && in_unit(report.texture.x) && in_unit(report.texture.y);
+  return report;
+}
+
+}  // namespace laterna

@@ -1,0 +1,79 @@
+#include <cmath>
+#include <optional>
+
+#include "laterna/measure.h"
+#include "measure/depth_ramp.h"
+
+namespace laterna {
+namespace {
+
+// A light's maps with the views they were drawn from: one, or six faces.
+struct LightMaps {
+  std::vector<View> views;
+  std::vector<LayeredImage> maps;
+};
+
+Result<LightMaps> draw_maps(const Renderer& renderer, const std::string& light) {
+  LightMaps all;
+  const Result<int> faces = renderer.depth_map_count(light);
+  if (!faces) return tl::unexpected(faces.error());
+  for (int face = 0; face < *faces; ++face) {
+    Result<LayeredImage> map = renderer.depth_map(light, face);
+    const Result<View> view = renderer.depth_map_view(light, face);
+    if (!map) return tl::unexpected(map.error());
+    if (!view) return tl::unexpected(view.error());
+    all.maps.push_back(std::move(*map));
+    all.views.push_back(*view);
+  }
+  return all;
+}
+
+// What the maps hold for a point; none where no map sees it.
+std::optional<float> stored_depth(const LightMaps& light, const glm::dvec3& point_ws) {
+  for (std::size_t i = 0; i < light.views.size(); ++i) {
+    const glm::dvec4 q = light.views[i].image_from_world() * glm::dvec4(point_ws, 1);
+    if (q.w <= 0) continue;
+    const LayeredImage& map = light.maps[i];
+    const double x = std::floor(q.x / q.w * map.width);
+    const double y = std::floor(q.y / q.w * map.height);
+    if (x < 0 || y < 0 || x >= map.width || y >= map.height) continue;
+    return map.channels[0].values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)];
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<LayeredImage> projected_depth(const Renderer& renderer, const View& camera, const RenderSettings& settings,
+                                     const std::string& light) {
+  const Result<LightMaps> maps = draw_maps(renderer, light);
+  if (!maps) return tl::unexpected(maps.error());
+  RenderSettings wanted = settings;
+  wanted.layers = {Layer::position, Layer::object};
+  wanted.shadows = ShadowTechnique::none;
+  Result<LayeredImage> drawn = renderer.render(camera, wanted);
+  if (!drawn) return drawn;
+
+  std::vector<float> all;
+  for (const LayeredImage& map : maps->maps) all.insert(all.end(), map.channels[0].values.begin(), map.channels[0].values.end());
+  const measure::DepthRamp ramp(all);
+  const std::vector<float>& x = drawn->find("P.X")->values;
+  const std::vector<float>& y = drawn->find("P.Y")->values;
+  const std::vector<float>& z = drawn->find("P.Z")->values;
+  const std::vector<float>& object = drawn->find("id.object")->values;
+  LayeredImage picture;
+  picture.width = drawn->width;
+  picture.height = drawn->height;
+  for (const char* name : {"R", "G", "B"}) {
+    Channel channel = {name, drawn->find(name)->values};
+    for (std::size_t i = 0; i < channel.values.size(); ++i) {
+      if (object[i] < 0) continue;
+      const std::optional<float> stored = stored_depth(*maps, {x[i], y[i], z[i]});
+      channel.values[i] = stored ? ramp.grey(*stored) : 0.0F;
+    }
+    picture.channels.push_back(std::move(channel));
+  }
+  return picture;
+}
+
+}  // namespace laterna

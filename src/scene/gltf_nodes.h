@@ -1,0 +1,33 @@
+// scenes[] and nodes[] of a glTF file: which nodes are shown, in which order, and where they stand.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "laterna/scene.h"
+#include "scene/fault_list.h"
+#include "scene/gltf_accessors.h"
+#include "scene/json_document.h"
+
+namespace laterna::gltf {
+
+/// A node of the file that the default scene shows.
+struct PlacedNode {
+  const JsonValue* json = nullptr;
+  int parent = -1;  ///< into the same list, always before the node itself
+};
+
+/// The nodes below the default scene's roots (`scene`, else scene 0, else every root node), parents first.
+/// Faults: cycles, nodes with two parents, indices out of range. Works without recursion, however deep the
+/// tree.
+std::vector<PlacedNode> placed_nodes(const JsonDocument& json, FaultList& faults);
+
+/// parent_from_node out of a matrix or translation, rotation and scale.
+glm::dmat4 node_matrix(const JsonDocument& json, const JsonValue& node, FaultList& faults);
+
+/// EXT_mesh_gpu_instancing; empty without it.
+std::vector<glm::dmat4> node_instances(const JsonDocument& json, const JsonValue& node, Accessors& accessors,
+                                       FaultList& faults);
+
+}  // namespace laterna::gltf

@@ -1,0 +1,135 @@
+#include "scene/gltf_reader.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "scene/fault_list.h"
+#include "scene/gltf_accessors.h"
+#include "scene/gltf_buffers.h"
+#include "scene/gltf_container.h"
+#include "scene/gltf_extension.h"
+#include "scene/gltf_lights.h"
+#include "scene/gltf_materials.h"
+#include "scene/gltf_meshes.h"
+#include "scene/gltf_nodes.h"
+#include "scene/gltf_textures.h"
+#include "scene/json_document.h"
+#include "scene/json_object.h"
+#include "scene/unique_names.h"
+
+namespace laterna {
+namespace gltf {
+namespace {
+
+// Hangs what the nodes refer to into the scene.
+class SceneBuilder {
+ public:
+  SceneBuilder(const JsonDocument& json, Meshes& meshes, Accessors& accessors, FaultList& faults)
+      : json_(json), meshes_(meshes), accessors_(accessors), faults_(faults) {
+    JsonObject root(json, json.root(), faults);
+    cameras_ = root.array("cameras");
+    lights_ = find_lights(json, faults);
+  }
+
+  void add(const PlacedNode& placed) {
+    JsonObject object(json_, *placed.json, faults_);
+    Node node;
+    node.name = object.string("name").value_or("");
+    node.parent = placed.parent;
+    node.parent_from_node = node_matrix(json_, *placed.json, faults_);
+    if (const int mesh = object.index("mesh", meshes_.count(), "meshes"); mesh >= 0) {
+      node.mesh = meshes_.use(mesh, object.array("weights"));
+      node.node_from_instance = node_instances(json_, *placed.json, accessors_, faults_);
+    }
+    const std::size_t camera_count = cameras_ == nullptr ? 0 : cameras_->children.size();
+    if (const int camera = object.index("camera", camera_count, "cameras"); camera >= 0) {
+      node.camera = add_camera(cameras_->children[static_cast<std::size_t>(camera)], node.name);
+    }
+    if (const JsonValue* extension = find_extension(*placed.json, "KHR_lights_punctual")) {
+      JsonObject reference(json_, *extension, faults_);
+      const std::size_t light_count = lights_ == nullptr ? 0 : lights_->children.size();
+      const int light = reference.index("light", light_count, "lights");
+      if (light >= 0) node.light = add_light(lights_->children[static_cast<std::size_t>(light)], node.name);
+    }
+    scene_.nodes.push_back(std::move(node));
+  }
+
+  Scene take() { return std::move(scene_); }
+
+ private:
+  // The thing's own name; where that is missing or belongs to another node already, the node's.
+  static std::string name_for(const std::string& own, const std::string& node, std::string fallback,
+                              UniqueNames& names) {
+    if (!own.empty() && !names.is_taken(own)) return names.take(own);
+    if (!node.empty()) return names.take(node);
+    return names.take(own.empty() ? fallback : own);
+  }
+
+  int add_camera(const JsonValue& value, const std::string& node_name) {
+    std::optional<Camera> camera = read_camera(json_, value, faults_);
+    if (!camera) return -1;
+    const std::size_t index = scene_.cameras.size();
+    camera->name = name_for(camera->name, node_name, fmt::format("camera {}", index + 1), camera_names_);
+    scene_.cameras.push_back(std::move(*camera));
+    return static_cast<int>(index);
+  }
+
+  int add_light(const JsonValue& value, const std::string& node_name) {
+    std::optional<Light> light = read_light(json_, value, faults_);
+    if (!light) return -1;
+    const std::size_t index = scene_.lights.size();
+    light->name = name_for(light->name, node_name, fmt::format("light {}", index + 1), light_names_);
+    scene_.lights.push_back(std::move(*light));
+    return static_cast<int>(index);
+  }
+
+  const JsonDocument& json_;
+  Meshes& meshes_;
+  Accessors& accessors_;
+  FaultList& faults_;
+  const JsonValue* cameras_ = nullptr;
+  const JsonValue* lights_ = nullptr;
+  UniqueNames camera_names_, light_names_;
+  Scene scene_;
+};
+
+tl::unexpected<Error> failure(const FaultList& faults) {
+  return tl::unexpected(Error(Failure::bad_input, faults.errors()));
+}
+
+Result<Scene> read_document(const JsonDocument& json, const Container& container,
+                            const std::filesystem::path& folder, FaultList& faults) {
+  check_requirements(json, faults);
+  if (faults.has_errors()) return failure(faults);
+  Buffers buffers(json, container, folder, faults);
+  Accessors accessors(json, buffers, faults);
+  Textures textures(json, buffers, folder, faults);
+  Materials materials(json, textures, faults);
+  Meshes meshes(json, buffers, accessors, materials, faults);
+  const std::vector<PlacedNode> placed = placed_nodes(json, faults);
+  SceneBuilder builder(json, meshes, accessors, faults);
+  for (const PlacedNode& node : placed) builder.add(node);
+  if (faults.has_errors()) return failure(faults);
+  Scene scene = builder.take();
+  scene.meshes = meshes.take();
+  scene.materials = materials.take();
+  scene.pictures = textures.take_pictures();
+  scene.warnings = faults.warnings();
+  return scene;
+}
+
+}  // namespace
+}  // namespace gltf
+
+Result<Scene> read_gltf(const ByteSource& source, const std::string& file,
+                        const std::filesystem::path& folder) {
+  const Result<gltf::Container> container = gltf::open_container(source, file);
+  if (!container) return tl::unexpected(container.error());
+  const Result<JsonDocument> json = JsonDocument::parse(container->json, file, JsonDocument::Place::path);
+  if (!json) return tl::unexpected(json.error());
+  FaultList faults(file);
+  return gltf::read_document(*json, *container, folder, faults);
+}
+
+}  // namespace laterna

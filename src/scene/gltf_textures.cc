@@ -1,0 +1,187 @@
+#include "scene/gltf_textures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/elementary.h"
+#include "scene/gltf_extension.h"
+#include "scene/spelling.h"
+#include "scene/uri.h"
+
+namespace laterna::gltf {
+namespace {
+
+constexpr double kMaxRotation = 1e5;  // radians; what sine() accepts
+
+Wrap parse_wrap(JsonObject& sampler, std::string_view name) {
+  const std::uint64_t code = sampler.whole(name).value_or(10497);
+  switch (code) {
+    case 10497:
+      return Wrap::repeat;
+    case 33648:
+      return Wrap::mirror;
+    case 33071:
+      return Wrap::clamp;
+    default:
+      break;
+  }
+  sampler.error(name, fmt::format("expected 10497, 33071 or 33648, got {}", code));
+  return Wrap::repeat;
+}
+
+}  // namespace
+
+Textures::Textures(const JsonDocument& json, Buffers& buffers, std::filesystem::path folder,
+                   FaultList& faults)
+    : json_(json), buffers_(buffers), folder_(std::move(folder)), faults_(faults) {
+  JsonObject root(json, json.root(), faults);
+  if (const JsonValue* list = root.array("samplers")) {
+    for (const JsonValue& value : list->children) samplers_.push_back(parse_sampler(value));
+  }
+  if (const JsonValue* list = root.array("images")) {
+    for (const JsonValue& value : list->children) images_.push_back(&value);
+  }
+  picture_of_image_.assign(images_.size(), kNotYetRead);
+  if (const JsonValue* list = root.array("textures")) {
+    for (const JsonValue& value : list->children) textures_.push_back(parse_texture(value));
+  }
+}
+
+Sampler Textures::parse_sampler(const JsonValue& value) {
+  JsonObject object(json_, value, faults_);
+  Sampler sampler;
+  sampler.wrap_u = parse_wrap(object, "wrapS");
+  sampler.wrap_v = parse_wrap(object, "wrapT");
+  const std::uint64_t magnify = object.whole("magFilter").value_or(9729);
+  if (magnify != 9728 && magnify != 9729) {
+    object.error("magFilter", fmt::format("expected 9728 or 9729, got {}", magnify));
+  }
+  sampler.magnify = magnify == 9728 ? Filter::nearest : Filter::linear;
+  const std::uint64_t minify = object.whole("minFilter").value_or(9987);
+  switch (minify) {
+    case 9728:
+    case 9729:
+      sampler.mip = MipFilter::none;
+      break;
+    case 9984:
+    case 9985:
+      sampler.mip = MipFilter::nearest;
+      break;
+    case 9986:
+    case 9987:
+      sampler.mip = MipFilter::linear;
+      break;
+    default:
+      object.error("minFilter", fmt::format("expected 9728, 9729 or 9984 to 9987, got {}", minify));
+  }
+  sampler.minify = minify % 2 == 0 ? Filter::nearest : Filter::linear;
+  return sampler;
+}
+
+Textures::Source Textures::parse_texture(const JsonValue& value) {
+  JsonObject object(json_, value, faults_);
+  Source source;
+  source.image = object.index("source", images_.size(), "images");
+  const int sampler = object.index("sampler", samplers_.size(), "samplers");
+  if (sampler >= 0) source.sampler = samplers_[static_cast<std::size_t>(sampler)];
+  return source;
+}
+
+Texture Textures::read(JsonObject& owner, std::string_view name, const std::string& material) {
+  const JsonValue* value = owner.object(name);
+  if (value == nullptr) return {};
+  JsonObject info(json_, *value, faults_);
+  info.require("index");
+  const int index = info.index("index", textures_.size(), "textures");
+  std::uint64_t uv_set = info.whole("texCoord").value_or(0);
+  Texture texture;
+  if (const JsonValue* transform = find_extension(*value, "KHR_texture_transform")) {
+    apply_transform(*transform, texture, uv_set);
+  }
+  if (index < 0) return {};
+  const Source& source = textures_[static_cast<std::size_t>(index)];
+  if (source.image < 0) {
+    info.warning({}, fmt::format("textures[{}] has no PNG or JPEG source: left out", index));
+    return {};
+  }
+  if (uv_set > 1) {
+    info.warning({}, fmt::format("uses TEXCOORD_{}, but only two sets are read: left out", uv_set));
+    return {};
+  }
+  texture.uv_set = static_cast<int>(uv_set);
+  texture.sampler = source.sampler;
+  const std::string used_by =
+      json_.path(*value) + (material.empty() ? std::string() : fmt::format(" ({})", in_quotes(material)));
+  texture.picture = picture_of(source.image, used_by);
+  return texture.is_set() ? texture : Texture{};
+}
+
+void Textures::apply_transform(const JsonValue& extension, Texture& texture, std::uint64_t& uv_set) {
+  JsonObject object(json_, extension, faults_);
+  const auto offset = object.numbers<2>("offset").value_or(std::array<double, 2>{0, 0});
+  const auto scale = object.numbers<2>("scale").value_or(std::array<double, 2>{1, 1});
+  const double rotation = object.number("rotation", {-kMaxRotation, kMaxRotation}).value_or(0);
+  uv_set = object.whole("texCoord").value_or(uv_set);
+  // Counter-clockwise as seen with v pointing down, which is what the extension's implementations agree on.
+  const double c = cosine(rotation), s = sine(rotation);
+  const double rows[6] = {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
+  for (std::size_t i = 0; i < 6; ++i) texture.uv_from_mesh_uv[i] = static_cast<float>(rows[i]);
+}
+
+int Textures::picture_of(int image, const std::string& used_by) {
+  int& picture = picture_of_image_[static_cast<std::size_t>(image)];
+  if (picture != kNotYetRead) return picture;
+  picture = -1;
+  if (std::optional<Picture> made = make_picture(*images_[static_cast<std::size_t>(image)], used_by)) {
+    picture = static_cast<int>(pictures_.size());
+    pictures_.push_back(std::move(*made));
+  }
+  return picture;
+}
+
+std::optional<Picture> Textures::make_picture(const JsonValue& value, const std::string& used_by) {
+  JsonObject image(json_, value, faults_);
+  if (image.has("uri") == image.has("bufferView")) {
+    image.error({}, "expected either a uri or a bufferView");
+    return std::nullopt;
+  }
+  if (image.has("uri")) return picture_from_uri(image, used_by);
+  const int view = image.index("bufferView", buffers_.view_count(), "bufferViews");
+  if (view < 0) return std::nullopt;
+  std::optional<OwnedSpan> bytes = buffers_.read(view);
+  if (!bytes) return std::nullopt;
+  Picture picture;
+  picture.name = fmt::format("{}: {}", faults_.file(), json_.path(value));
+  picture.encoded_owner = std::move(bytes->owner);
+  picture.encoded = bytes->bytes;
+  return picture;
+}
+
+std::optional<Picture> Textures::picture_from_uri(JsonObject& image, const std::string& used_by) {
+  const std::optional<std::string> uri = image.string("uri");
+  if (!uri) return std::nullopt;
+  Picture picture;
+  if (!is_data_uri(*uri)) {
+    auto path = resolve_file(folder_, *uri);
+    if (!path) {
+      image.error("uri", fmt::format("{}; used by {}", path.error(), used_by));
+      return std::nullopt;
+    }
+    picture.file = std::move(*path);
+    picture.name = picture.file.string();
+    return picture;
+  }
+  auto decoded = decode_data_uri(*uri);
+  if (!decoded) {
+    image.error("uri", fmt::format("{}; used by {}", decoded.error(), used_by));
+    return std::nullopt;
+  }
+  picture.name = fmt::format("{}: {}", faults_.file(), json_.path(image.value()));
+  picture.encoded_owner = std::make_shared<const std::vector<std::byte>>(std::move(*decoded));
+  picture.encoded = *picture.encoded_owner;
+  return picture;
+}
+
+}  // namespace laterna::gltf

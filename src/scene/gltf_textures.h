@@ -1,0 +1,52 @@
+// samplers[], images[] and textures[] of a glTF file. Pictures are referred to, not decoded, and only those
+// in use.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "laterna/scene.h"
+#include "scene/gltf_buffers.h"
+
+namespace laterna::gltf {
+
+class Textures {
+ public:
+  Textures(const JsonDocument& json, Buffers& buffers, std::filesystem::path folder, FaultList& faults);
+
+  /// The textureInfo `name` of `owner`, with KHR_texture_transform. Not set when absent or faulty. `material`
+  /// is the material's name, for the message about a missing file.
+  Texture read(JsonObject& owner, std::string_view name, const std::string& material);
+
+  /// The pictures in use, in the order of first use; Texture::picture counts into them.
+  std::vector<Picture> take_pictures() { return std::move(pictures_); }
+
+ private:
+  struct Source {
+    int image = -1;
+    Sampler sampler;
+  };
+
+  Sampler parse_sampler(const JsonValue& value);
+  Source parse_texture(const JsonValue& value);
+  int picture_of(int image, const std::string& used_by);
+  std::optional<Picture> make_picture(const JsonValue& image, const std::string& used_by);
+  std::optional<Picture> picture_from_uri(JsonObject& image, const std::string& used_by);
+  void apply_transform(const JsonValue& extension, Texture& texture, std::uint64_t& uv_set);
+
+  static constexpr int kNotYetRead = -2;
+
+  const JsonDocument& json_;
+  Buffers& buffers_;
+  std::filesystem::path folder_;
+  FaultList& faults_;
+  std::vector<Sampler> samplers_;
+  std::vector<const JsonValue*> images_;
+  std::vector<int> picture_of_image_;  // kNotYetRead, −1 (faulty) or an index into pictures_
+  std::vector<Source> textures_;
+  std::vector<Picture> pictures_;
+};
+
+}  // namespace laterna::gltf

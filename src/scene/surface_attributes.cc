@@ -1,0 +1,61 @@
+#include "scene/surface_attributes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "scene/normals.h"
+#include "scene/spelling.h"
+#include "scene/tangents.h"
+#include "scene/triangle_geometry.h"
+
+namespace laterna {
+namespace {
+
+void complete_texture_coordinates(Primitive& primitive, const Material& material, const std::string& place,
+                                  FaultList& faults) {
+  for (const Texture* texture : textures_of(material)) {
+    if (!texture->is_set()) continue;
+    std::vector<glm::vec2>& uv = primitive.uv[static_cast<std::size_t>(texture->uv_set)];
+    if (!uv.empty()) continue;
+    faults.warning(
+        place,
+        fmt::format("material {} uses texture coordinates {}, which the mesh does not have: taken as (0, 0)",
+                    in_quotes(material.name), texture->uv_set));
+    uv.assign(primitive.positions.size(), glm::vec2(0));
+  }
+}
+
+void repair_tangents(Primitive& primitive) {
+  for (std::size_t i = 0; i < primitive.tangents.size(); ++i) {
+    glm::vec4& tangent = primitive.tangents[i];
+    const glm::dvec3 direction(tangent);
+    tangent = glm::vec4(glm::vec3(unit_or(direction, any_perpendicular(glm::dvec3(primitive.normals[i])))),
+                        tangent.w < 0 ? -1.0F : 1.0F);
+  }
+}
+
+}  // namespace
+
+std::array<const Texture*, 5> textures_of(const Material& material) {
+  return {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+          &material.occlusion_texture, &material.emissive_texture};
+}
+
+void complete_attributes(Primitive& primitive, const Material* material, std::optional<Angle> crease,
+                         const std::string& place, FaultList& faults) {
+  if (primitive.normals.empty()) {
+    crease ? compute_smooth_normals(primitive, *crease) : compute_flat_normals(primitive);
+  } else if (const std::size_t repaired = repair_normals(primitive); repaired > 0) {
+    faults.warning(place, fmt::format("{} normals have no length: taken from the faces around", repaired));
+  }
+  repair_tangents(primitive);
+  if (material == nullptr) return;
+  complete_texture_coordinates(primitive, *material, place, faults);
+  if (material->normal_texture.is_set() && primitive.tangents.empty()) {
+    compute_tangents(primitive, material->normal_texture.uv_set);
+  }
+}
+
+}  // namespace laterna

@@ -1,0 +1,21 @@
+// Completes a primitive's attributes to what its material needs, whatever format it came from.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "laterna/scene.h"
+#include "scene/fault_list.h"
+
+namespace laterna {
+
+/// Fills in texture coordinates that the material's textures use (zero, with a warning), repairs normals and
+/// tangents without length, and computes tangents where there is a normal map. Without normals: flat ones, or
+/// smooth ones up to `crease`. `place` is the primitive's, for warnings.
+void complete_attributes(Primitive& primitive, const Material* material, std::optional<Angle> crease,
+                         const std::string& place, FaultList& faults);
+
+/// The textures of a material, in a fixed order.
+std::array<const Texture*, 5> textures_of(const Material& material);
+
+}  // namespace laterna

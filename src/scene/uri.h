@@ -1,0 +1,30 @@
+// glTF's URIs: data URIs, and references to files beside the scene.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "laterna/result.h"
+
+namespace laterna {
+
+bool is_data_uri(std::string_view uri);
+
+/// The bytes of "data:[media type][;base64],…", percent-encoded or base64. Error: the reason, without a
+/// place.
+tl::expected<std::vector<std::byte>, std::string> decode_data_uri(std::string_view uri);
+
+/// "%20" → " "; what is no valid escape stays as it is.
+std::string percent_decoded(std::string_view text);
+
+/// The file that a relative reference names: tried percent-decoded, as written, and with backslashes read as
+/// slashes.
+/// `../` is followed, as real files use it. Error: it is an absolute path or a URL, or no such file is there.
+tl::expected<std::filesystem::path, std::string> resolve_file(const std::filesystem::path& folder,
+                                                              std::string_view reference);
+
+}  // namespace laterna

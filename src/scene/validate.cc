@@ -1,0 +1,457 @@
+// The rules that every scene must meet before it is rendered, whether it was read or built in code.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string_view>
+#include <unordered_map>
+
+#include "laterna/scene.h"
+#include "scene/fault_list.h"
+#include "scene/normals.h"
+#include "scene/number_scans.h"
+#include "scene/spelling.h"
+#include "scene/surface_attributes.h"
+
+namespace laterna {
+namespace {
+
+constexpr int kMaxShadowResolution = 16384;
+constexpr int kLeastKernel = 2, kMostKernel = 9;
+
+std::string item(std::string_view list, std::size_t index) { return fmt::format("{}[{}]", list, index); }
+
+template <class Vector>
+bool is_finite(const Vector& v) {
+  for (int i = 0; i < Vector::length(); ++i) {
+    if (!std::isfinite(v[i])) return false;
+  }
+  return true;
+}
+
+class Validator {
+ public:
+  explicit Validator(const Scene& scene) : scene_(scene) {}
+
+  std::vector<Diagnostic> run() {
+    check_pictures();
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+      check_material(scene_.materials[i], item("materials", i));
+    check_meshes();
+    check_cameras();
+    check_lights();
+    check_whole_scene();
+    check_nodes();
+    return faults_.errors();
+  }
+
+ private:
+  void fault(std::string place, std::string message) { faults_.error(std::move(place), std::move(message)); }
+
+  // Reports a value outside [low, high], or not finite.
+  void check_number(const std::string& place, double value, double low, double high) {
+    if (value >= low && value <= high && std::isfinite(value)) return;
+    if (std::isinf(high)) {
+      fault(place, fmt::format("expected a finite number of at least {}, got {}", low, value));
+    } else {
+      fault(place, fmt::format("expected a number from {} to {}, got {}", low, high, value));
+    }
+  }
+
+  template <class Vector>
+  void check_color(const std::string& place, const Vector& color, double high) {
+    for (int i = 0; i < Vector::length(); ++i) {
+      check_number(item(place, static_cast<std::size_t>(i)), color[i], 0, high);
+    }
+  }
+
+  void check_reference(const std::string& place, int index, std::size_t count, std::string_view list) {
+    if (index >= -1 && (index < 0 || static_cast<std::size_t>(index) < count)) return;
+    fault(place, fmt::format("{} is no index into the {} {}, nor -1 for none", index, count, list));
+  }
+
+  void check_pictures();
+  void check_texture(const Texture& texture, const std::string& place);
+  void check_material(const Material& material, const std::string& place);
+  void check_meshes();
+  void check_primitive(const Primitive& primitive, const std::string& place);
+  template <class Vector>
+  void check_attribute(const std::vector<Vector>& values, const Primitive& primitive,
+                       const std::string& place);
+  void check_directions(const Primitive& primitive, const std::string& place);
+  void check_triangles(const Primitive& primitive, const std::string& place);
+  void check_cameras();
+  void check_lights();
+  void check_light(const Light& light, const std::string& place);
+  void check_shadow(const ShadowSettings& shadow, const std::string& place);
+  void check_whole_scene();
+  void check_nodes();
+  void check_node(const Node& node, const std::string& place);
+  void check_matrix(const glm::dmat4& matrix, const std::string& place);
+  bool check_parents();
+  void check_places();
+  void check_placed_meshes(const std::vector<glm::dmat4>& world_from_node);
+  template <class Named>
+  void check_names(const std::vector<Named>& things, std::string_view list);
+
+  const Scene& scene_;
+  FaultList faults_{std::string()};
+};
+
+void Validator::check_pictures() {
+  for (std::size_t i = 0; i < scene_.pictures.size(); ++i) {
+    const Picture& picture = scene_.pictures[i];
+    const int sources =
+        (picture.file.empty() ? 0 : 1) + (picture.encoded.empty() ? 0 : 1) + (picture.pixels ? 1 : 0);
+    if (sources != 1) {
+      fault(item("pictures", i),
+            fmt::format("expected exactly one of file, encoded and pixels, got {}", sources));
+    }
+    if (picture.pixels && picture.pixels->empty())
+      fault(item("pictures", i) + ".pixels", "the image is empty");
+  }
+}
+
+void Validator::check_texture(const Texture& texture, const std::string& place) {
+  check_reference(place + ".picture", texture.picture, scene_.pictures.size(), "pictures");
+  if (texture.uv_set != 0 && texture.uv_set != 1) {
+    fault(place + ".uv_set", fmt::format("expected 0 or 1, got {}", texture.uv_set));
+  }
+  for (std::size_t i = 0; i < texture.uv_from_mesh_uv.size(); ++i) {
+    if (std::isfinite(texture.uv_from_mesh_uv[i])) continue;
+    fault(item(place + ".uv_from_mesh_uv", i),
+          fmt::format("expected a finite number, got {}", texture.uv_from_mesh_uv[i]));
+  }
+}
+
+void Validator::check_material(const Material& material, const std::string& place) {
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  check_color(place + ".base_color", material.base_color, kEndless);
+  check_number(place + ".metallic", material.metallic, 0, 1);
+  check_number(place + ".roughness", material.roughness, 0, 1);
+  check_number(place + ".normal_scale", material.normal_scale, -1e6, 1e6);
+  check_number(place + ".occlusion_strength", material.occlusion_strength, 0, 1);
+  check_color(place + ".emissive", material.emissive, kEndless);
+  check_number(place + ".alpha_cutoff", material.alpha_cutoff, 0, kEndless);
+  check_texture(material.base_color_texture, place + ".base_color_texture");
+  check_texture(material.metallic_roughness_texture, place + ".metallic_roughness_texture");
+  check_texture(material.normal_texture, place + ".normal_texture");
+  check_texture(material.occlusion_texture, place + ".occlusion_texture");
+  check_texture(material.emissive_texture, place + ".emissive_texture");
+}
+
+void Validator::check_meshes() {
+  std::uint64_t vertices = 0, triangles = 0;
+  for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
+    const std::vector<Primitive>& primitives = scene_.meshes[m].primitives;
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      check_primitive(primitives[p], item(item("meshes", m) + ".primitives", p));
+      vertices += primitives[p].positions.size();
+      triangles += triangle_count(primitives[p]);
+    }
+  }
+  if (vertices > kMaxVertices)
+    fault("meshes", fmt::format("{} vertices are more than {}", vertices, kMaxVertices));
+  if (triangles > kMaxTriangles)
+    fault("meshes", fmt::format("{} triangles are more than {}", triangles, kMaxTriangles));
+}
+
+template <class Vector>
+void Validator::check_attribute(const std::vector<Vector>& values, const Primitive& primitive,
+                                const std::string& place) {
+  if (!values.empty() && values.size() != primitive.positions.size()) {
+    fault(place, fmt::format("has {} elements, but there are {} positions", values.size(),
+                             primitive.positions.size()));
+  }
+  const std::span<const float> components = components_of(values);
+  const std::size_t bad = first_not_finite(components);
+  if (bad == components.size()) return;
+  fault(item(place, bad / static_cast<std::size_t>(Vector::length())), "expected finite numbers");
+}
+
+void Validator::check_directions(const Primitive& primitive, const std::string& place) {
+  const auto flat = std::find(primitive.normals.begin(), primitive.normals.end(), glm::vec3(0));
+  if (flat != primitive.normals.end()) {
+    fault(item(place + ".normals", static_cast<std::size_t>(flat - primitive.normals.begin())),
+          "a normal has no length");
+  }
+  for (std::size_t i = 0; i < primitive.tangents.size(); ++i) {
+    const glm::vec4 tangent = primitive.tangents[i];
+    if (glm::vec3(tangent) != glm::vec3(0) && std::abs(tangent.w) == 1) continue;
+    fault(item(place + ".tangents", i), "expected a direction, and w = 1 or -1");
+    break;
+  }
+  if (!primitive.tangents.empty() && primitive.normals.empty()) {
+    fault(place + ".tangents", "tangents mean nothing without normals");
+  }
+}
+
+void Validator::check_triangles(const Primitive& primitive, const std::string& place) {
+  if (primitive.indices.empty()) {
+    if (primitive.positions.size() % 3 == 0) return;
+    fault(place + ".positions",
+          fmt::format("without indices, expected a multiple of 3, got {}", primitive.positions.size()));
+    return;
+  }
+  if (primitive.indices.size() % 3 != 0) {
+    fault(place + ".indices", fmt::format("expected a multiple of 3, got {}", primitive.indices.size()));
+  }
+  const std::size_t beyond = first_beyond(primitive.indices, primitive.positions.size());
+  if (beyond == primitive.indices.size()) return;
+  fault(item(place + ".indices", beyond),
+        fmt::format("{} is beyond the {} positions", primitive.indices[beyond], primitive.positions.size()));
+}
+
+void Validator::check_primitive(const Primitive& primitive, const std::string& place) {
+  check_attribute(primitive.positions, primitive, place + ".positions");
+  check_attribute(primitive.normals, primitive, place + ".normals");
+  check_attribute(primitive.tangents, primitive, place + ".tangents");
+  check_attribute(primitive.uv[0], primitive, place + ".uv[0]");
+  check_attribute(primitive.uv[1], primitive, place + ".uv[1]");
+  check_attribute(primitive.colors, primitive, place + ".colors");
+  check_directions(primitive, place);
+  check_triangles(primitive, place);
+  check_reference(place + ".material", primitive.material, scene_.materials.size(), "materials");
+  if (primitive.material < 0 || static_cast<std::size_t>(primitive.material) >= scene_.materials.size())
+    return;
+  for (const Texture* texture : textures_of(scene_.materials[static_cast<std::size_t>(primitive.material)])) {
+    const auto set = static_cast<std::size_t>(texture->uv_set);
+    if (!texture->is_set() || set > 1 || primitive.positions.empty() || !primitive.uv[set].empty()) continue;
+    fault(fmt::format("{}.uv[{}]", place, set),
+          fmt::format("is empty, but materials[{}] has a texture that uses it", primitive.material));
+    return;
+  }
+}
+
+template <class Named>
+void Validator::check_names(const std::vector<Named>& things, std::string_view list) {
+  std::unordered_map<std::string_view, std::size_t> first;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    const auto [found, is_new] = first.try_emplace(things[i].name, i);
+    if (!is_new) {
+      fault(item(list, i) + ".name",
+            fmt::format("{} is also the name of {}[{}]", in_quotes(things[i].name), list, found->second));
+    }
+  }
+}
+
+void Validator::check_cameras() {
+  check_names(scene_.cameras, "cameras");
+  for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
+    if (std::string message = find_fault(scene_.cameras[i].projection); !message.empty()) {
+      fault(item("cameras", i) + ".projection", std::move(message));
+    }
+  }
+}
+
+void Validator::check_lights() {
+  check_names(scene_.lights, "lights");
+  for (std::size_t i = 0; i < scene_.lights.size(); ++i) check_light(scene_.lights[i], item("lights", i));
+}
+
+void Validator::check_light(const Light& light, const std::string& place) {
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  check_color(place + ".color", light.color, kEndless);
+  check_number(place + ".intensity", light.intensity, 0, kEndless);
+  if (light.lumens) {
+    check_number(place + ".lumens", *light.lumens, 0, kEndless);
+    if (light.type != LightType::projector)
+      fault(place + ".lumens", "only a projector's brightness is given in lumens");
+  }
+  if (!(light.range > 0))
+    fault(place + ".range", fmt::format("expected a number greater than 0, got {}", light.range));
+  if (light.attenuation == Attenuation::custom && !light.custom_attenuation) {
+    fault(place + ".custom_attenuation", "is not set, but attenuation is custom");
+  }
+  if (light.type == LightType::spot) {
+    const double inner = light.inner_cone.in_degrees(), outer = light.outer_cone.in_degrees();
+    if (!(inner >= 0 && inner <= outer && outer <= 90)) {
+      fault(place + ".outer_cone",
+            fmt::format("expected 0 <= inner cone <= outer cone <= 90 degrees, got {:.6g} and {:.6g}", inner,
+                        outer));
+    }
+  }
+  check_reference(place + ".slide", light.slide, scene_.pictures.size(), "pictures");
+  if (light.slide_is_intensity && light.slide < 0) {
+    fault(place + ".slide", "is not set, but slide_is_intensity says that it holds the intensities");
+  }
+  const bool has_frustum =
+      light.type == LightType::projector || (light.type == LightType::directional && !light.fit);
+  if (std::string message = find_fault(light.projection); has_frustum && !message.empty()) {
+    fault(place + ".projection", std::move(message));
+  }
+  if (light.type == LightType::directional && !light.fit && !light.projection.is_orthographic) {
+    fault(place + ".projection", "a directional light's projection must be orthographic");
+  }
+  check_shadow(light.shadow, place + ".shadow");
+}
+
+void Validator::check_shadow(const ShadowSettings& shadow, const std::string& place) {
+  if (shadow.resolution < 0 || shadow.resolution > kMaxShadowResolution) {
+    fault(place + ".resolution", fmt::format("expected from 1 to {}, or 0 for the default, got {}",
+                                             kMaxShadowResolution, shadow.resolution));
+  }
+  if (shadow.kernel < kLeastKernel || shadow.kernel > kMostKernel) {
+    fault(place + ".kernel",
+          fmt::format("expected from {} to {}, got {}", kLeastKernel, kMostKernel, shadow.kernel));
+  }
+  if (shadow.constant_bias)
+    check_number(place + ".constant_bias", *shadow.constant_bias, -kMaxCoordinate, kMaxCoordinate);
+  if (shadow.slope_bias)
+    check_number(place + ".slope_bias", *shadow.slope_bias, -kMaxCoordinate, kMaxCoordinate);
+}
+
+void Validator::check_whole_scene() {
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  check_color("ambient", scene_.ambient, kEndless);
+  if (scene_.background) check_color("background", *scene_.background, kEndless);
+  if (!scene_.phong) return;
+  check_number("phong.specular", scene_.phong->specular, 0, kEndless);
+  check_number("phong.shininess", scene_.phong->shininess, 0, kEndless);
+}
+
+void Validator::check_matrix(const glm::dmat4& matrix, const std::string& place) {
+  for (int column = 0; column < 4; ++column) {
+    if (!is_finite(matrix[column])) return fault(place, "the matrix holds a value that is not finite");
+    if (matrix[column][3] != (column == 3 ? 1 : 0))
+      return fault(place, "the matrix's last row must be 0 0 0 1");
+  }
+}
+
+void Validator::check_node(const Node& node, const std::string& place) {
+  check_reference(place + ".parent", node.parent, scene_.nodes.size(), "nodes");
+  check_reference(place + ".mesh", node.mesh, scene_.meshes.size(), "meshes");
+  check_reference(place + ".camera", node.camera, scene_.cameras.size(), "cameras");
+  check_reference(place + ".light", node.light, scene_.lights.size(), "lights");
+  check_matrix(node.parent_from_node, place + ".parent_from_node");
+  for (std::size_t i = 0; i < node.node_from_instance.size(); ++i) {
+    check_matrix(node.node_from_instance[i], item(place + ".node_from_instance", i));
+  }
+}
+
+// Whether the parents form a forest. Each walk upward stops at a node that an earlier one has passed.
+bool Validator::check_parents() {
+  enum class Mark : std::uint8_t { unseen, on_path, done };
+  std::vector<Mark> marks(scene_.nodes.size(), Mark::unseen);
+  bool is_forest = true;
+  std::vector<std::size_t> path;
+  for (std::size_t start = 0; start < scene_.nodes.size(); ++start) {
+    path.clear();
+    auto node = static_cast<std::ptrdiff_t>(start);
+    while (node >= 0 && marks[static_cast<std::size_t>(node)] == Mark::unseen) {
+      marks[static_cast<std::size_t>(node)] = Mark::on_path;
+      path.push_back(static_cast<std::size_t>(node));
+      node = scene_.nodes[static_cast<std::size_t>(node)].parent;
+    }
+    if (node >= 0 && marks[static_cast<std::size_t>(node)] == Mark::on_path) {
+      fault(item("nodes", static_cast<std::size_t>(node)) + ".parent", "the node is its own ancestor");
+      is_forest = false;
+    }
+    for (const std::size_t seen : path) marks[seen] = Mark::done;
+  }
+  return is_forest;
+}
+
+void Validator::check_nodes() {
+  for (std::size_t i = 0; i < scene_.nodes.size(); ++i) check_node(scene_.nodes[i], item("nodes", i));
+  // What follows walks the tree and looks into the meshes, so it needs all of them sound.
+  if (faults_.has_errors() || !check_parents()) return;
+  check_places();
+}
+
+void Validator::check_places() {
+  const std::vector<glm::dmat4> world_from_node = world_from_nodes(scene_);
+  std::vector<int> camera_node(scene_.cameras.size(), -1), light_node(scene_.lights.size(), -1);
+  for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+    const Node& node = scene_.nodes[i];
+    for (const auto& [index, owner, list] :
+         {std::tuple{node.camera, &camera_node, "cameras"}, std::tuple{node.light, &light_node, "lights"}}) {
+      if (index < 0) continue;
+      int& first = (*owner)[static_cast<std::size_t>(index)];
+      if (first >= 0)
+        fault(item("nodes", i), fmt::format("{}[{}] already stands at nodes[{}]", list, index, first));
+      first = static_cast<int>(i);
+      const Result<Pose> pose = Pose::from_matrix(world_from_node[i]);
+      if (!pose)
+        fault(item("nodes", i),
+              fmt::format("{}[{}] cannot stand here: {}", list, index, to_string(pose.error())));
+      const glm::dvec4 at = world_from_node[i][3];
+      if (std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) > kMaxCoordinate) {
+        fault(item("nodes", i), fmt::format("{}[{}] is more than {} m away", list, index, kMaxCoordinate));
+      }
+    }
+  }
+  check_placed_meshes(world_from_node);
+}
+
+struct Bounds {
+  glm::dvec3 low{0}, high{0};
+  bool is_empty = true;
+};
+
+Bounds bounds_of(const Mesh& mesh) {
+  Bounds bounds;
+  glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
+  for (const Primitive& primitive : mesh.primitives) {
+    for (const glm::vec3& p : primitive.positions) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    bounds.is_empty &= primitive.positions.empty();
+  }
+  bounds.low = low;
+  bounds.high = high;
+  return bounds;
+}
+
+// Whether the box, once placed, keeps within the coordinates that single precision can calculate with.
+bool is_within_reach(const Bounds& bounds, const glm::dmat4& world_from_mesh) {
+  if (bounds.is_empty) return true;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec4 p((corner & 1) != 0 ? bounds.high.x : bounds.low.x,
+                       (corner & 2) != 0 ? bounds.high.y : bounds.low.y,
+                       (corner & 4) != 0 ? bounds.high.z : bounds.low.z, 1);
+    const glm::dvec4 world = world_from_mesh * p;
+    // Written so that NaN fails.
+    if (!(std::max({std::abs(world.x), std::abs(world.y), std::abs(world.z)}) <= kMaxCoordinate))
+      return false;
+    if (std::isnan(world.x) || std::isnan(world.y) || std::isnan(world.z)) return false;
+  }
+  return true;
+}
+
+void Validator::check_placed_meshes(const std::vector<glm::dmat4>& world_from_node) {
+  std::vector<Bounds> bounds;
+  std::vector<std::uint64_t> triangles;
+  for (const Mesh& mesh : scene_.meshes) {
+    bounds.push_back(bounds_of(mesh));
+    std::uint64_t count = 0;
+    for (const Primitive& primitive : mesh.primitives) count += triangle_count(primitive);
+    triangles.push_back(count);
+  }
+  std::uint64_t placed = 0;
+  for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+    const Node& node = scene_.nodes[i];
+    if (node.mesh < 0) continue;
+    const auto mesh = static_cast<std::size_t>(node.mesh);
+    const std::size_t copies = std::max<std::size_t>(node.node_from_instance.size(), 1);
+    placed += triangles[mesh] * copies;
+    bool fits = node.node_from_instance.empty() ? is_within_reach(bounds[mesh], world_from_node[i]) : true;
+    for (const glm::dmat4& node_from_instance : node.node_from_instance) {
+      fits = fits && is_within_reach(bounds[mesh], world_from_node[i] * node_from_instance);
+    }
+    if (!fits)
+      fault(item("nodes", i),
+            fmt::format("meshes[{}] reaches more than {} m from the origin", mesh, kMaxCoordinate));
+  }
+  if (placed > kMaxPlacedTriangles) {
+    fault("nodes", fmt::format("they show {} triangles, more than {}", placed, kMaxPlacedTriangles));
+  }
+}
+
+}  // namespace
+
+std::vector<Diagnostic> validate(const Scene& scene) { return Validator(scene).run(); }
+
+}  // namespace laterna
