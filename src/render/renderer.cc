@@ -64,11 +64,13 @@ class ProgressReport {
   ProgressReport(const Progress& progress, std::size_t steps) : progress_(progress), steps_(steps) {}
   [[nodiscard]] bool is_cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
   void step() {
-    const std::size_t done = done_.fetch_add(1) + 1;
+    done_.fetch_add(1);
     if (!progress_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock.owns_lock()) return;
-    if (!progress_(static_cast<double>(done) / static_cast<double>(steps_))) cancelled_ = true;
+    // Once told to stop, the caller is not asked again.
+    if (!lock.owns_lock() || is_cancelled()) return;
+    // Read under the lock, so that what is reported never goes back.
+    if (!progress_(static_cast<double>(done_.load()) / static_cast<double>(steps_))) cancelled_ = true;
   }
 
  private:

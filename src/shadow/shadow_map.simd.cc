@@ -10,6 +10,8 @@
 #include "base/vectors-inl.h"
 #include "frame/surface_alpha.h"
 #include "frame/triangle_corners-inl.h"
+#include "shadow/depth_comparison-inl.h"
+#include "shadow/depth_comparison.h"
 #include "shadow/projected_view-inl.h"
 #include "shadow/shadow_map.h"
 
@@ -150,10 +152,13 @@ class MapReader {
     return quad;
   }
 
-  // How much nearer to the light than the receiver's plane a texel's surface is, in reversed depth.
-  HWY_INLINE FloatVector Gap(const Receiver& r, IntVector index, FloatVector dx, FloatVector dy) const {
-    const auto stored = hn::GatherIndex(FloatTag(), map_.texels(), index);
-    return stored - (r.q + (r.q_dx * dx + r.q_dy * dy));
+  // A texel's two sides of the comparison: the surface that the light saw there, and the receiver's plane.
+  struct Depths {
+    FloatVector stored, tested;
+  };
+  // (dx, dy): from the sample to the texel's centre.
+  HWY_INLINE Depths DepthsAt(const Receiver& r, IntVector index, FloatVector dx, FloatVector dy) const {
+    return {hn::GatherIndex(FloatTag(), map_.texels(), index), r.q + (r.q_dx * dx + r.q_dy * dy)};
   }
 
   [[nodiscard]] HWY_INLINE FloatVector Outside() const { return Splat(test_.outside_is_lit ? 1.0F : 0.0F); }
@@ -162,7 +167,7 @@ class MapReader {
 
  private:
   // 1 where texel (i, j), whose centre lies (dx, dy) texels from the sample, holds nothing nearer than the receiver's
-  // plane has there: is_lit(), N at a time.
+  // plane has there.
   HWY_INLINE FloatVector Tap(const Receiver& r, FloatVector bias, IntVector i, IntVector j, FloatVector dx,
                              FloatVector dy) const {
     const FloatTag d;
@@ -170,8 +175,9 @@ class MapReader {
     const auto last_i = SplatInt(map_.width() - 1), last_j = SplatInt(map_.height() - 1);
     const auto held_i = hn::Min(hn::Max(i, zero), last_i), held_j = hn::Min(hn::Max(j, zero), last_j);
     const auto is_inside = hn::RebindMask(d, hn::And(held_i == i, held_j == j));
-    const auto gap = Gap(r, ColumnPart(held_i) + RowPart(held_j, map_.tiles_x()), dx, dy);
-    return hn::IfThenElse(is_inside, hn::IfThenElseZero(gap <= bias, Splat(1.0F)), Outside());
+    const Depths depths = DepthsAt(r, ColumnPart(held_i) + RowPart(held_j, map_.tiles_x()), dx, dy);
+    const auto is_lit = IsLit(depths.stored, depths.tested, bias);
+    return hn::IfThenElse(is_inside, hn::IfThenElseZero(is_lit, Splat(1.0F)), Outside());
   }
 
   // Texel coordinates far outside would not fit an int.
@@ -183,9 +189,10 @@ class MapReader {
     for (int j = 0; j < 2; ++j) {
       FloatVector lit[2];
       for (int i = 0; i < 2; ++i) {
-        const auto gap = Gap(r, quad.column[i] + quad.row[j], quad.dx[i], quad.dy[j]);
+        const Depths depths = DepthsAt(r, quad.column[i] + quad.row[j], quad.dx[i], quad.dy[j]);
+        const auto is_lit = IsLit(depths.stored, depths.tested, bias);
         const auto is_inside = hn::And(quad.column_in[i], quad.row_in[j]);
-        lit[i] = hn::IfThenElse(is_inside, hn::IfThenElseZero(gap <= bias, Splat(1.0F)), Outside());
+        lit[i] = hn::IfThenElse(is_inside, hn::IfThenElseZero(is_lit, Splat(1.0F)), Outside());
       }
       rows[j] = lit[0] + (lit[1] - lit[0]) * quad.weight_x;
     }
@@ -261,10 +268,10 @@ HWY_INLINE FourGaps FindGaps(const MapReader& reader, const Receiver& r, const Q
   FourGaps gaps;
   for (int k = 0; k < 4; ++k) {
     const int i = k & 1, j = k >> 1;
-    const auto gap = reader.Gap(r, quad.column[i] + quad.row[j], quad.dx[i], quad.dy[j]);
+    const auto [stored, tested] = reader.DepthsAt(r, quad.column[i] + quad.row[j], quad.dx[i], quad.dy[j]);
     const auto is_outside = hn::Not(hn::And(quad.column_in[i], quad.row_in[j]));
-    gaps.is_lit[k] = hn::Or(is_outside, gap <= r.rounding);
-    gaps.is_far[k] = hn::AndNot(is_outside, gap > near);
+    gaps.is_lit[k] = hn::Or(is_outside, IsLit(stored, tested, r.rounding));
+    gaps.is_far[k] = hn::AndNot(is_outside, hn::Not(IsLit(stored, tested, near)));
   }
   return gaps;
 }
@@ -506,5 +513,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace laterna::shadow {
 LATERNA_KERNEL_TABLE(look_up_shadow_map)
+
+bool is_lit(float stored, float tested, float bias) { return HWY_STATIC_DISPATCH(IsLit)(stored, tested, bias); }
 }  // namespace laterna::shadow
 #endif
