@@ -124,9 +124,9 @@ void print_table(const std::vector<RenderStatistics>& frames, const Prepared& pr
 
 int run_bench(const Options& options) {
   if (options.workload.empty() && options.scene.files.empty()) {
-    return report(bad_option("bench needs a SCENE or --workload").value());
+    return report(bad_option("bench needs a SCENE or --workload"));
   }
-  if (options.frames < 1 || options.warm_up < 0) return report(bad_option("--frames must be at least 1").value());
+  if (options.frames < 1 || options.warm_up < 0) return report(bad_option("--frames must be at least 1"));
   Result<Prepared> prepared = options.workload.empty() ? prepare_scene(options) : prepare_workload(options);
   if (!prepared) return report(prepared.error());
   RenderSettings& settings = prepared->settings;

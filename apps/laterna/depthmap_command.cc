@@ -19,6 +19,7 @@ struct Options {
 };
 
 int run_depthmap(const Options& options) {
+  if (Result<void> writable = check_image_output(options.output); !writable) return report(writable.error());
   const Result<Renderer> renderer = options.scene.make_renderer();
   if (!renderer) return report(renderer.error());
   Result<LayeredImage> map = renderer->depth_map(options.light, options.face);

@@ -86,9 +86,9 @@ void declare_diff(CLI::App& app, Run& run) {
   command->add_option("--fail", l.fail, "a pixel fails when a channel differs by more")->capture_default_str();
   command->add_option("--failpercent", l.fail_percent, "share of pixels that may fail")->capture_default_str();
   command->add_option("--hardfail", l.hard_fail, "no pixel may differ by more")->capture_default_str();
-  command->add_option("--warn", l.warn, "the same, for a warning")->capture_default_str();
-  command->add_option("--warnpercent", l.warn_percent, "")->capture_default_str();
-  command->add_option("--hardwarn", l.hard_warn, "")->capture_default_str();
+  command->add_option("--warn", l.warn, "like --fail, for a warning")->capture_default_str();
+  command->add_option("--warnpercent", l.warn_percent, "like --failpercent, for a warning")->capture_default_str();
+  command->add_option("--hardwarn", l.hard_warn, "like --hardfail, for a warning")->capture_default_str();
   command->add_option("-o,--output", options->output, "write a picture of the difference");
   command->add_option("--scale", options->scale, "brightness of that picture")->capture_default_str();
   command->add_flag("--json", options->json, "as JSON");

@@ -57,7 +57,7 @@ int run_inspect(const Options& options) {
   glm::dvec3 point;
   char rest = 0;
   if (std::sscanf(options.point.c_str(), "%lf,%lf,%lf%c", &point.x, &point.y, &point.z, &rest) != 3) {
-    return report(bad_option(fmt::format("--point: expected x,y,z in metres, got \"{}\"", options.point)).value());
+    return report(bad_option(fmt::format("--point: expected x,y,z in metres, got \"{}\"", options.point)));
   }
   const Result<ViewOptions::Size> size = options.view.parse_size();
   if (!size) return report(size.error());

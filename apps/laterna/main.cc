@@ -26,6 +26,17 @@ constexpr const char* kDescription =
     "laterna: what projected light does to a 3D scene. Slide projectors, spotlights and suns\n"
     "with shadows, rendered without a GPU or a display; the same picture on every machine.\n";
 
+bool is_command(const CLI::App& app, const std::string& name) {
+  return !app.get_subcommands([&](const CLI::App* command) { return command->check_name(name); }).empty();
+}
+
+int report_unknown_command(const CLI::App& app, const std::string& name) {
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands({})) known += " " + command->get_name();
+  fmt::print(stderr, "laterna: error: there is no command \"{}\"; there are{}\n", name, known);
+  return laterna::app::kBadUsage;
+}
+
 constexpr const char* kFooter =
     "\nExamples:\n"
     "  laterna render scene.glb -o picture.png\n"
@@ -49,6 +60,9 @@ int main(int argc, char** argv) {
         laterna::app::declare_depthmap, laterna::app::declare_diff, laterna::app::declare_bench,
         laterna::app::declare_doctor}) {
     declare(app, run);
+  }
+  if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1])) {
+    return report_unknown_command(app, argv[1]);
   }
   try {
     app.parse(argc, argv);

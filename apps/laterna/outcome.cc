@@ -8,7 +8,7 @@ namespace laterna::app {
 
 int report(const Error& error) {
   for (const Diagnostic& diagnostic : error.diagnostics) fmt::print(stderr, "laterna: error: {}\n", to_string(diagnostic));
-  return error.failure == Failure::cancelled ? kCannotWrite : static_cast<int>(error.failure);
+  return static_cast<int>(error.failure);
 }
 
 void report_warnings(const std::vector<Diagnostic>& warnings) {

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -77,17 +80,17 @@ Result<RenderSettings> parse_settings(const RenderOptions& options) {
   return settings;
 }
 
-/// The picture's background: none, or linear light from sRGB numbers.
-Result<void> set_background(const std::string& text, Scene& scene) {
-  if (text.empty() || text == "transparent") return {};
+/// The colour behind the scene, where one was given.
+Result<std::optional<glm::vec3>> parse_background(const std::string& text) {
+  if (text.empty() || text == "transparent") return std::nullopt;
   float c[3];
   char rest = 0;
   if (std::sscanf(text.c_str(), "%f,%f,%f%c", &c[0], &c[1], &c[2], &rest) != 3 ||
       !std::all_of(c, c + 3, [](float v) { return v >= 0 && std::isfinite(v); })) {
-    return bad_option(fmt::format("--background: expected \"transparent\" or R,G,B in linear light, got \"{}\"", text));
+    return tl::unexpected(
+        bad_option(fmt::format("--background: expected \"transparent\" or R,G,B in linear light, got \"{}\"", text)));
   }
-  scene.background = glm::vec3(c[0], c[1], c[2]);
-  return {};
+  return glm::vec3(c[0], c[1], c[2]);
 }
 
 /// A factor; 0 stands for "auto".
@@ -96,7 +99,8 @@ Result<float> parse_exposure(const std::string& text) {
   char* end = nullptr;
   const double stops = std::strtod(text.c_str(), &end);
   if (end == text.c_str() || *end != 0 || !(std::abs(stops) <= 60)) {
-    return bad_option(fmt::format("--exposure: expected stops from -60 to 60, or \"auto\", got \"{}\"", text));
+    return tl::unexpected(
+        bad_option(fmt::format("--exposure: expected stops from -60 to 60, or \"auto\", got \"{}\"", text)));
   }
   return static_cast<float>(std::exp2(stops));
 }
@@ -144,8 +148,13 @@ class RenderCommand {
     if (!settings) return report(settings.error());
     const Result<float> exposure = parse_exposure(options_.exposure);
     if (!exposure) return report(exposure.error());
-    if (const std::string fault = find_output_fault(*settings); !fault.empty()) return report(bad_option(fault).value());
-    Result<Renderer> renderer = make_renderer();
+    const Result<std::optional<glm::vec3>> background = parse_background(options_.background);
+    if (!background) return report(background.error());
+    if (const std::string fault = find_output_fault(*settings); !fault.empty()) return report(bad_option(fault));
+    if (Result<void> writable = check_image_output(options_.output); !writable) return report(writable.error());
+    const Result<Renderer> renderer = options_.scene.make_renderer([&](Scene& scene) {
+      if (*background) scene.background = *background;
+    });
     if (!renderer) return report(renderer.error());
     const Result<View> view = options_.view.find(*renderer, {settings->width, settings->height});
     if (!view) return report(view.error());
@@ -164,21 +173,6 @@ class RenderCommand {
     }
     if (options_.debug.empty() || options_.debug == "depth" || options_.debug.rfind("project-depth:", 0) == 0) return {};
     return fmt::format("--debug: expected depth or project-depth:LIGHT, got \"{}\"", options_.debug);
-  }
-
-  Result<Renderer> make_renderer() const {
-    const Result<RendererOptions> machine = options_.scene.renderer_options();
-    if (!machine) return tl::unexpected(machine.error());
-    Result<Scene> scene = options_.scene.load();
-    if (!scene) return tl::unexpected(std::move(scene.error()));
-    if (Result<void> set = set_background(options_.background, *scene); !set) return tl::unexpected(set.error());
-    const std::size_t told = scene->warnings.size();
-    Result<Renderer> renderer = Renderer::create(std::move(*scene), *machine);
-    if (renderer) {
-      const std::vector<Diagnostic>& all = renderer->scene().warnings;
-      report_warnings({all.begin() + static_cast<std::ptrdiff_t>(told), all.end()});
-    }
-    return renderer;
   }
 
   int draw(const Renderer& renderer, const View& view, const RenderSettings& settings, float exposure) {

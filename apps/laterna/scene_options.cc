@@ -10,8 +10,8 @@
 
 namespace laterna::app {
 
-tl::unexpected<Error> bad_option(std::string message) {
-  return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}));
+Error bad_option(std::string message) {
+  return {Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}};
 }
 
 void SceneOptions::declare_scene(CLI::App& command) {
@@ -48,16 +48,17 @@ Result<RendererOptions> SceneOptions::renderer_options() const {
   if (instruction_set.empty()) return options;
   options.instruction_set = instruction_set_named(instruction_set);
   if (!options.instruction_set) {
-    return bad_option(fmt::format("--isa: there is no instruction set \"{}\"; there are scalar, sse4, avx2, avx512 and neon", instruction_set));
+    return tl::unexpected(bad_option(fmt::format("--isa: there is no instruction set \"{}\"; there are scalar, sse4, avx2, avx512 and neon", instruction_set)));
   }
   return options;
 }
 
-Result<Renderer> SceneOptions::make_renderer() const {
+Result<Renderer> SceneOptions::make_renderer(const std::function<void(Scene&)>& amend) const {
   const Result<RendererOptions> options = renderer_options();
   if (!options) return tl::unexpected(options.error());
   Result<Scene> scene = load();
   if (!scene) return tl::unexpected(std::move(scene.error()));
+  if (amend) amend(*scene);
   const std::size_t told = scene->warnings.size();
   Result<Renderer> renderer = Renderer::create(std::move(*scene), *options);
   if (renderer) {
@@ -82,14 +83,14 @@ Result<ViewOptions::Size> ViewOptions::parse_size() const {
   };
   const std::string_view text = size;
   if (x == std::string::npos || !number(text.substr(0, x), parsed.width) || !number(text.substr(x + 1), parsed.height)) {
-    return bad_option(fmt::format("--size: expected WIDTHxHEIGHT such as 1920x1080, got \"{}\"", size));
+    return tl::unexpected(bad_option(fmt::format("--size: expected WIDTHxHEIGHT such as 1920x1080, got \"{}\"", size)));
   }
   return parsed;
 }
 
 Result<View> ViewOptions::find(const Renderer& renderer, const Size& picture) const {
   if (!from_light.empty()) {
-    if (!camera.empty()) return bad_option("--camera and --from-light exclude each other");
+    if (!camera.empty()) return tl::unexpected(bad_option("--camera and --from-light exclude each other"));
     return renderer.light_view(from_light);
   }
   Result<View> view = renderer.camera_view(camera, picture.width, picture.height);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,8 +26,8 @@ struct SceneOptions {
 
   [[nodiscard]] Result<Scene> load() const;
   [[nodiscard]] Result<RendererOptions> renderer_options() const;
-  /// Loads the scene, tells its warnings, and makes it ready.
-  [[nodiscard]] Result<Renderer> make_renderer() const;
+  /// Loads the scene, lets `amend` change it, makes it ready, and tells its warnings.
+  [[nodiscard]] Result<Renderer> make_renderer(const std::function<void(Scene&)>& amend = {}) const;
 };
 
 struct ViewOptions {
@@ -45,6 +46,6 @@ struct ViewOptions {
 };
 
 /// An error about an option.
-tl::unexpected<Error> bad_option(std::string message);
+Error bad_option(std::string message);
 
 }  // namespace laterna::app

@@ -224,7 +224,7 @@ class LightReader {
     object_.any("intensity_map");
     const std::optional<std::string> name = object_.string(key);
     if (!name) return -1;
-    auto path = resolve_file(folder_, *name);
+    auto path = resolve_typed_file(folder_, *name);
     if (!path) {
       object_.error(key, path.error());
       return -1;

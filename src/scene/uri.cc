@@ -134,4 +134,15 @@ tl::expected<std::filesystem::path, std::string> resolve_file(const std::filesys
                                     path_in_quotes((folder / decoded).string())));
 }
 
+tl::expected<std::filesystem::path, std::string> resolve_typed_file(const std::filesystem::path& folder,
+                                                                    std::string_view name) {
+  if (name.empty()) return tl::unexpected<std::string>("the file name is empty");
+  if (name.find('\0') != std::string_view::npos)
+    return tl::unexpected<std::string>("the file name holds a NUL character");
+  std::filesystem::path path = folder / name;
+  if (is_file(path)) return path;
+  return tl::unexpected(
+      fmt::format("{} not found (tried {})", in_quotes(name), path_in_quotes(path.string())));
+}
+
 }  // namespace laterna

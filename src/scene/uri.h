@@ -27,4 +27,9 @@ std::string percent_decoded(std::string_view text);
 tl::expected<std::filesystem::path, std::string> resolve_file(const std::filesystem::path& folder,
                                                               std::string_view reference);
 
+/// The file that a person typed in a rig: as written, relative to `folder` or absolute. A rig is its user's own text,
+/// so unlike a downloaded scene it may name any file. Error: no such file is there.
+tl::expected<std::filesystem::path, std::string> resolve_typed_file(const std::filesystem::path& folder,
+                                                                    std::string_view name);
+
 }  // namespace laterna
