@@ -277,9 +277,10 @@ HWY_INLINE Vector3 ReflectPhong(const Incidence& in, const std::optional<PhongHi
   return Multiply(in.irradiance, diffuse + reflectance * lobe);
 }
 
-// glTF 2.0, appendix B: GGX with height-correlated Smith shadowing, Schlick's Fresnel term, Lambert beneath.
+// glTF 2.0, appendix B.3: GGX, the separable form of Smith's masking and shadowing, Schlick's Fresnel term, Lambert
+// beneath.
 HWY_INLINE Vector3 ReflectPbr(const Incidence& in) {
-  const auto one = Splat(1.0F), zero = Splat(0.0F);
+  const auto one = Splat(1.0F);
   const auto inverse_pi = Splat(0.318309886F);
   const Vector3 half = Normalised(in.to_eye + in.to_light);
   const auto n_l = Saturate(in.cosine);
@@ -291,8 +292,9 @@ HWY_INLINE Vector3 ReflectPbr(const Incidence& in) {
   const auto a2 = alpha * alpha;
   const auto t = n_h * n_h * (a2 - one) + one;
   const auto distribution = a2 * inverse_pi / hn::Max(t * t, Splat(1e-12F));
-  const auto smith = n_l * hn::Sqrt(n_v * n_v * (one - a2) + a2) + n_v * hn::Sqrt(n_l * n_l * (one - a2) + a2);
-  const auto visibility = hn::IfThenElseZero(smith > zero, Splat(0.5F) / hn::Max(smith, Splat(1e-12F)));
+  // G / (4 n·l n·v): Smith's factors without their numerators.
+  const auto smith = [&](FloatVector cosine) HWY_ATTR { return cosine + hn::Sqrt(a2 + (one - a2) * (cosine * cosine)); };
+  const auto visibility = one / (smith(n_l) * smith(n_v));
   const auto m = one - v_h;
   const auto m2 = m * m;
   const auto fresnel = m2 * m2 * m;
