@@ -108,8 +108,9 @@ Json results_json(const std::vector<RenderStatistics>& frames, const Prepared& p
 }
 
 void print_table(const std::vector<RenderStatistics>& frames, const Prepared& prepared) {
-  fmt::print("{}x{}, {} threads, {}, median of {} frames\n", prepared.settings.width, prepared.settings.height,
-             prepared.renderer.threads(), name_of(prepared.renderer.instruction_set()), frames.size());
+  fmt::print("{}x{}, {} threads, {}, median of {} frames\n", prepared.settings.width,
+             prepared.settings.height, prepared.renderer.threads(),
+             name_of(prepared.renderer.instruction_set()), frames.size());
   fmt::print("{:<8} {:>9} {:>9} {:>9}\n", "stage", "median ms", "min", "max");
   for (const Stage& stage : kStages) {
     const Timing t = timing_of(frames, stage.member);
@@ -118,8 +119,8 @@ void print_table(const std::vector<RenderStatistics>& frames, const Prepared& pr
   const Timing t = timing_of(frames, &RenderStatistics::total_ms);
   fmt::print("{:<8} {:>9.2f} {:>9.2f} {:>9.2f}\n", "frame", t.median, t.min, t.max);
   fmt::print("triangles {} considered, {} drawn; shadow maps {} drawn, {} kept; peak memory {:.0f} MB\n",
-             frames.back().triangles, frames.back().triangles_drawn, frames.back().maps_drawn, frames.back().maps_kept,
-             peak_megabytes());
+             frames.back().triangles, frames.back().triangles_drawn, frames.back().maps_drawn,
+             frames.back().maps_kept, peak_megabytes());
 }
 
 int run_bench(const Options& options) {
@@ -133,7 +134,8 @@ int run_bench(const Options& options) {
   settings.keep_shadow_maps = options.keep_maps;
   Image image(settings.width, settings.height, 3, PixelType::u8, Transfer::srgb);
   RenderTarget target;
-  target.color8 = ColorTarget8{image.values<std::uint8_t>().data(), 3, static_cast<std::size_t>(settings.width) * 3, 1};
+  target.color8 =
+      ColorTarget8{image.values<std::uint8_t>().data(), 3, static_cast<std::size_t>(settings.width) * 3, 1};
   std::vector<RenderStatistics> frames;
   for (int i = -options.warm_up; i < options.frames; ++i) {
     const Result<RenderStatistics> done = prepared->renderer.render_into(prepared->view, settings, target);
@@ -161,7 +163,8 @@ void declare_bench(CLI::App& app, Run& run) {
   options->view.declare(*command);
   command->add_option("--workload", options->workload, "JSON file of named workloads instead of a SCENE");
   command->add_option("--name", options->name, "which workload")->capture_default_str();
-  command->add_option("--scenes", options->scenes, "folder of the workload's models; default: scenes beside the file");
+  command->add_option("--scenes", options->scenes,
+                      "folder of the workload's models; default: scenes beside the file");
   command->add_option("--frames", options->frames, "frames that count")->capture_default_str();
   command->add_option("--warm-up", options->warm_up, "frames before them")->capture_default_str();
   command->add_flag("--cached", options->keep_maps, "keep shadow maps from frame to frame");

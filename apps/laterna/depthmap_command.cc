@@ -38,10 +38,13 @@ void declare_depthmap(CLI::App& app, Run& run) {
   options->scene.declare_scene(*command);
   command->add_option("--light", options->light, "light by name")->required();
   command->add_option("-o,--output", options->output, "picture to write")->required();
-  command->add_option("--view", options->view, "inverse: near is light, far dark, nothing white; metres: channel Z of an .exr")
+  command
+      ->add_option("--view", options->view,
+                   "inverse: near is light, far dark, nothing white; metres: channel Z of an .exr")
       ->check(CLI::IsMember({"inverse", "metres"}))
       ->capture_default_str();
-  command->add_option("--face", options->face, "0 to 5 for a light that shines all round: +X -X +Y -Y +Z -Z")->capture_default_str();
+  command->add_option("--face", options->face, "0 to 5 for a light that shines all round: +X -X +Y -Y +Z -Z")
+      ->capture_default_str();
   options->scene.declare_machine(*command);
   command->footer("\nExample:\n  laterna depthmap room.glb --rig stage.json --light lantern -o depth.png\n");
   command->callback([options, &run] { run = [options] { return run_depthmap(*options); }; });

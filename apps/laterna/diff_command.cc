@@ -20,25 +20,32 @@ struct Options {
 
 const char* word(Verdict verdict) {
   switch (verdict) {
-    case Verdict::pass: return "PASS";
-    case Verdict::warning: return "WARNING";
-    case Verdict::failure: break;
+    case Verdict::pass:
+      return "PASS";
+    case Verdict::warning:
+      return "WARNING";
+    case Verdict::failure:
+      break;
   }
   return "FAILURE";
 }
 
 void print_difference(const Comparison& comparison) {
   const Difference& d = comparison.difference;
-  fmt::print("  Mean error = {:.6g}\n  RMS error = {:.6g}\n  Peak SNR = {:.4g}\n", d.mean_error, d.rms_error, d.psnr_db);
+  fmt::print("  Mean error = {:.6g}\n  RMS error = {:.6g}\n  Peak SNR = {:.4g}\n", d.mean_error, d.rms_error,
+             d.psnr_db);
   if (d.max_error > 0) {
-    fmt::print("  Max error  = {:.6g} @ ({}, {}, {})  values are {:.6g} vs {:.6g}\n", d.max_error, d.max_x, d.max_y,
-               d.max_channel, d.max_value_a, d.max_value_b);
+    fmt::print("  Max error  = {:.6g} @ ({}, {}, {})  values are {:.6g} vs {:.6g}\n", d.max_error, d.max_x,
+               d.max_y, d.max_channel, d.max_value_a, d.max_value_b);
   } else {
     fmt::print("  Max error  = 0\n");
   }
-  const auto percent = [&](std::int64_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(d.pixels); };
+  const auto percent = [&](std::int64_t n) {
+    return 100.0 * static_cast<double>(n) / static_cast<double>(d.pixels);
+  };
   fmt::print("  {} pixels ({:.3g}%) over warn\n  {} pixels ({:.3g}%) over fail\n{}\n", d.pixels_over_warn,
-             percent(d.pixels_over_warn), d.pixels_over_fail, percent(d.pixels_over_fail), word(comparison.verdict));
+             percent(d.pixels_over_warn), d.pixels_over_fail, percent(d.pixels_over_fail),
+             word(comparison.verdict));
 }
 
 nlohmann::json difference_json(const Comparison& comparison) {
@@ -48,7 +55,12 @@ nlohmann::json difference_json(const Comparison& comparison) {
           {"rms_error", d.rms_error},
           {"max_error", d.max_error},
           {"psnr_db", d.max_error > 0 ? nlohmann::json(d.psnr_db) : nlohmann::json()},
-          {"max", {{"x", d.max_x}, {"y", d.max_y}, {"channel", d.max_channel}, {"a", d.max_value_a}, {"b", d.max_value_b}}},
+          {"max",
+           {{"x", d.max_x},
+            {"y", d.max_y},
+            {"channel", d.max_channel},
+            {"a", d.max_value_a},
+            {"b", d.max_value_b}}},
           {"pixels", d.pixels},
           {"pixels_over_warn", d.pixels_over_warn},
           {"pixels_over_fail", d.pixels_over_fail}};
@@ -70,7 +82,8 @@ int run_diff(const Options& options) {
   if (!options.output.empty()) {
     const Result<LayeredImage> picture = difference_picture(*a, *b, static_cast<float>(options.scale));
     if (!picture) return report(picture.error());
-    if (Result<void> written = write_image(*picture, options.output); !written) return report(written.error());
+    if (Result<void> written = write_image(*picture, options.output); !written)
+      return report(written.error());
   }
   return comparison->verdict == Verdict::failure ? kComparisonFailed : kOk;
 }
@@ -80,14 +93,18 @@ int run_diff(const Options& options) {
 void declare_diff(CLI::App& app, Run& run) {
   auto options = std::make_shared<Options>();
   DifferenceLimits& l = options->limits;
-  CLI::App* command = app.add_subcommand("diff", "compare two pictures, channel by channel; exit code 1 when they differ too much");
+  CLI::App* command = app.add_subcommand(
+      "diff", "compare two pictures, channel by channel; exit code 1 when they differ too much");
   command->add_option("A", options->a, "picture")->required();
   command->add_option("B", options->b, "picture")->required();
-  command->add_option("--fail", l.fail, "a pixel fails when a channel differs by more")->capture_default_str();
-  command->add_option("--failpercent", l.fail_percent, "share of pixels that may fail")->capture_default_str();
+  command->add_option("--fail", l.fail, "a pixel fails when a channel differs by more")
+      ->capture_default_str();
+  command->add_option("--failpercent", l.fail_percent, "share of pixels that may fail")
+      ->capture_default_str();
   command->add_option("--hardfail", l.hard_fail, "no pixel may differ by more")->capture_default_str();
   command->add_option("--warn", l.warn, "like --fail, for a warning")->capture_default_str();
-  command->add_option("--warnpercent", l.warn_percent, "like --failpercent, for a warning")->capture_default_str();
+  command->add_option("--warnpercent", l.warn_percent, "like --failpercent, for a warning")
+      ->capture_default_str();
   command->add_option("--hardwarn", l.hard_warn, "like --hardfail, for a warning")->capture_default_str();
   command->add_option("-o,--output", options->output, "write a picture of the difference");
   command->add_option("--scale", options->scale, "brightness of that picture")->capture_default_str();

@@ -21,7 +21,8 @@ using Json = nlohmann::json;
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
-    if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
+    if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos)
+      return line.substr(line.find(": ") + 2);
   }
   return "unknown";
 }
@@ -81,7 +82,9 @@ int run_doctor(bool as_json) {
   std::string sets;
   for (const InstructionSet set : supported_instruction_sets()) sets += std::string(name_of(set)) + " ";
   fmt::print("{:<18} {}(using {})\n", "instruction sets", sets, name_of(best_instruction_set()));
-  fmt::print("{:<18} {}\n", "self-test", *agree ? "same bits on every instruction set" : "PICTURES DIFFER between instruction sets: please report this machine");
+  fmt::print("{:<18} {}\n", "self-test",
+             *agree ? "same bits on every instruction set"
+                    : "PICTURES DIFFER between instruction sets: please report this machine");
   fmt::print("{:<18} not needed\n", "GPU, display");
   for (const Component& c : components()) fmt::print("{:<18} {}\n", c.name, c.version);
   return *agree ? kOk : kComparisonFailed;

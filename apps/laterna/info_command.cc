@@ -14,7 +14,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::size_t triangles_of(const Primitive& p) { return (p.indices.empty() ? p.positions.size() : p.indices.size()) / 3; }
+std::size_t triangles_of(const Primitive& p) {
+  return (p.indices.empty() ? p.positions.size() : p.indices.size()) / 3;
+}
 
 struct Totals {
   std::size_t objects = 0, triangles = 0, vertices = 0;
@@ -47,10 +49,14 @@ Totals count(const Scene& scene) {
 
 const char* type_name(LightType type) {
   switch (type) {
-    case LightType::directional: return "directional";
-    case LightType::point: return "point";
-    case LightType::spot: return "spot";
-    case LightType::projector: break;
+    case LightType::directional:
+      return "directional";
+    case LightType::point:
+      return "point";
+    case LightType::spot:
+      return "spot";
+    case LightType::projector:
+      break;
   }
   return "projector";
 }
@@ -113,12 +119,17 @@ Json describe(const Scene& scene) {
             {"pictures", describe_pictures(scene)}};
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
     const Node& node = scene.nodes[n];
-    if (node.camera >= 0) j["cameras"].push_back(describe_camera(scene.cameras[static_cast<std::size_t>(node.camera)], world[n]));
-    if (node.light >= 0) j["lights"].push_back(describe_light(scene.lights[static_cast<std::size_t>(node.light)], world[n]));
+    if (node.camera >= 0)
+      j["cameras"].push_back(describe_camera(scene.cameras[static_cast<std::size_t>(node.camera)], world[n]));
+    if (node.light >= 0)
+      j["lights"].push_back(describe_light(scene.lights[static_cast<std::size_t>(node.light)], world[n]));
   }
   for (const Material& m : scene.materials) {
-    const char* alpha = m.alpha_mode == AlphaMode::mask ? "mask" : m.alpha_mode == AlphaMode::blend ? "blend" : "opaque";
-    j["materials"].push_back({{"name", m.name}, {"alpha", alpha}, {"double_sided", m.double_sided}, {"unlit", m.unlit}});
+    const char* alpha = m.alpha_mode == AlphaMode::mask    ? "mask"
+                        : m.alpha_mode == AlphaMode::blend ? "blend"
+                                                           : "opaque";
+    j["materials"].push_back(
+        {{"name", m.name}, {"alpha", alpha}, {"double_sided", m.double_sided}, {"unlit", m.unlit}});
   }
   return j;
 }
@@ -134,13 +145,17 @@ void print_table(const Json& j) {
   fmt::print("{:<12} {}\n", "materials", j["materials"].size());
   fmt::print("{:<12} {}\n", "pictures", j["pictures"].size());
   for (const Json& p : j["pictures"]) {
-    const std::string size = p.contains("size") ? fmt::format("{} {}x{}", p["format"].get<std::string>(), p["size"][0].get<int>(), p["size"][1].get<int>()) : "in memory";
+    const std::string size = p.contains("size")
+                                 ? fmt::format("{} {}x{}", p["format"].get<std::string>(),
+                                               p["size"][0].get<int>(), p["size"][1].get<int>())
+                                 : "in memory";
     fmt::print("  {:<18} {}\n", size, p["name"].get<std::string>());
   }
   fmt::print("{:<12} {}\n", "cameras", j["cameras"].size());
   for (const Json& c : j["cameras"]) {
-    const std::string field = c.contains("yfov_deg") ? fmt::format("{:.1f}°", c["yfov_deg"].get<double>())
-                                                     : fmt::format("{:.3g} m high", c["height"].get<double>());
+    const std::string field = c.contains("yfov_deg")
+                                  ? fmt::format("{:.1f}°", c["yfov_deg"].get<double>())
+                                  : fmt::format("{:.3g} m high", c["height"].get<double>());
     fmt::print("  {:<18} at {}, {}\n", c["name"].get<std::string>(), triple(c["position"]), field);
   }
   fmt::print("{:<12} {}\n", "lights", j["lights"].size());

@@ -46,11 +46,16 @@ Json report_json(const PointReport& p) {
 void print_report(const PointReport& p) {
   fmt::print("world    {:.9g} {:.9g} {:.9g}   m\n", p.world.x, p.world.y, p.world.z);
   fmt::print("clip     {:.9g} {:.9g} {:.9g} {:.9g}   M_c · world\n", p.clip.x, p.clip.y, p.clip.z, p.clip.w);
-  fmt::print("screen   {:.9g} {:.9g}   clip x/w, y/w; pixel {:.3f} {:.3f}\n", p.screen.x, p.screen.y, p.pixel.x, p.pixel.y);
-  fmt::print("light    {:.9g} {:.9g} {:.9g} {:.9g}   M_l · world\n", p.light.x, p.light.y, p.light.z, p.light.w);
-  fmt::print("texture  {:.9g} {:.9g}, depth {:.9g}   from the top-left corner of the slide\n", p.texture.x, p.texture.y, p.texture.z);
+  fmt::print("screen   {:.9g} {:.9g}   clip x/w, y/w; pixel {:.3f} {:.3f}\n", p.screen.x, p.screen.y,
+             p.pixel.x, p.pixel.y);
+  fmt::print("light    {:.9g} {:.9g} {:.9g} {:.9g}   M_l · world\n", p.light.x, p.light.y, p.light.z,
+             p.light.w);
+  fmt::print("texture  {:.9g} {:.9g}, depth {:.9g}   from the top-left corner of the slide\n", p.texture.x,
+             p.texture.y, p.texture.z);
   fmt::print("{:.6g} m along the light's axis, {}\n", p.distance,
-             !p.is_ahead ? "behind the lens" : p.is_inside ? "inside its frame" : "outside its frame");
+             !p.is_ahead   ? "behind the lens"
+             : p.is_inside ? "inside its frame"
+                           : "outside its frame");
 }
 
 int run_inspect(const Options& options) {
@@ -65,7 +70,8 @@ int run_inspect(const Options& options) {
   if (!renderer) return report(renderer.error());
   const Result<View> view = options.view.find(*renderer, *size);
   if (!view) return report(view.error());
-  const Result<PointReport> found = inspect_point(*renderer, *view, size->width, size->height, options.light, point);
+  const Result<PointReport> found =
+      inspect_point(*renderer, *view, size->width, size->height, options.light, point);
   if (!found) return report(found.error());
   if (options.json) {
     fmt::print("{}\n", report_json(*found).dump(2));
@@ -79,13 +85,15 @@ int run_inspect(const Options& options) {
 
 void declare_inspect(CLI::App& app, Run& run) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("inspect", "a point in world, clip, screen, light and texture coordinates");
+  CLI::App* command =
+      app.add_subcommand("inspect", "a point in world, clip, screen, light and texture coordinates");
   options->scene.declare_scene(*command);
   command->add_option("--light", options->light, "light by name")->required();
   command->add_option("--point", options->point, "x,y,z in metres")->required();
   options->view.declare(*command);
   command->add_flag("--json", options->json, "as JSON, with the matrices");
-  command->footer("\nExample:\n  laterna inspect room.glb --rig stage.json --light lantern --point 0,1.2,-3\n");
+  command->footer(
+      "\nExample:\n  laterna inspect room.glb --rig stage.json --light lantern --point 0,1.2,-3\n");
   command->callback([options, &run] { run = [options] { return run_inspect(*options); }; });
 }
 

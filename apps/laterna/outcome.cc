@@ -7,7 +7,8 @@
 namespace laterna::app {
 
 int report(const Error& error) {
-  for (const Diagnostic& diagnostic : error.diagnostics) fmt::print(stderr, "laterna: error: {}\n", to_string(diagnostic));
+  for (const Diagnostic& diagnostic : error.diagnostics)
+    fmt::print(stderr, "laterna: error: {}\n", to_string(diagnostic));
   return static_cast<int>(error.failure);
 }
 

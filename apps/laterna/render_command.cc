@@ -44,7 +44,8 @@ struct RenderOptions {
   SceneOptions scene;
   ViewOptions view;
   std::string output;
-  std::string shadows = "map", shading = "pbr", passes = "single", interpolation = "perspective", depth = "auto";
+  std::string shadows = "map", shading = "pbr", passes = "single", interpolation = "perspective",
+              depth = "auto";
   std::string exposure = "0", background, debug;
   std::vector<std::string> layers;
   int samples = 1, anisotropy = 8;
@@ -55,7 +56,8 @@ void list_all_techniques() {
   for (const TechniqueDescription& t : list_techniques()) fmt::print("{:<12} {}\n", t.name, t.meaning);
 }
 void list_all_layers() {
-  for (const LayerDescription& l : list_layers()) fmt::print("{:<12} {:<36} {}\n", l.name, l.channels, l.meaning);
+  for (const LayerDescription& l : list_layers())
+    fmt::print("{:<12} {:<36} {}\n", l.name, l.channels, l.meaning);
 }
 
 Result<RenderSettings> parse_settings(const RenderOptions& options) {
@@ -87,8 +89,8 @@ Result<std::optional<glm::vec3>> parse_background(const std::string& text) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%f,%f,%f%c", &c[0], &c[1], &c[2], &rest) != 3 ||
       !std::all_of(c, c + 3, [](float v) { return v >= 0 && std::isfinite(v); })) {
-    return tl::unexpected(
-        bad_option(fmt::format("--background: expected \"transparent\" or R,G,B in linear light, got \"{}\"", text)));
+    return tl::unexpected(bad_option(
+        fmt::format("--background: expected \"transparent\" or R,G,B in linear light, got \"{}\"", text)));
   }
   return glm::vec3(c[0], c[1], c[2]);
 }
@@ -106,7 +108,8 @@ Result<float> parse_exposure(const std::string& text) {
 }
 
 bool has_ending(const std::string& name, const char* ending) {
-  return name.size() >= std::strlen(ending) && name.compare(name.size() - std::strlen(ending), std::string::npos, ending) == 0;
+  return name.size() >= std::strlen(ending) &&
+         name.compare(name.size() - std::strlen(ending), std::string::npos, ending) == 0;
 }
 
 /// Keeps users from wondering at white or black pictures.
@@ -117,14 +120,17 @@ void advise_exposure(const LayeredImage& image, float exposure) {
   const std::vector<float>& alpha = image.find("A")->values;
   for (std::size_t i = 0; i < alpha.size(); ++i) {
     if (alpha[i] <= 0) continue;
-    const float brightest = exposure * std::max({image.channels[0].values[i], image.channels[1].values[i], image.channels[2].values[i]});
+    const float brightest = exposure * std::max({image.channels[0].values[i], image.channels[1].values[i],
+                                                 image.channels[2].values[i]});
     ++seen;
     white += brightest >= 1 ? 1U : 0U;
     dark += brightest < 0.002F ? 1U : 0U;
   }
   if (seen == 0) fmt::print(stderr, "laterna: note: nothing of the scene is in the picture\n");
-  if (2 * white > seen) fmt::print(stderr, "laterna: note: more than half of the picture is over-exposed: try --exposure auto\n");
-  if (seen > 0 && 10 * dark > 9 * seen) fmt::print(stderr, "laterna: note: nearly all of the picture is black: try --exposure auto\n");
+  if (2 * white > seen)
+    fmt::print(stderr, "laterna: note: more than half of the picture is over-exposed: try --exposure auto\n");
+  if (seen > 0 && 10 * dark > 9 * seen)
+    fmt::print(stderr, "laterna: note: nearly all of the picture is black: try --exposure auto\n");
 }
 
 nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double write_ms) {
@@ -132,9 +138,9 @@ nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double
   for (const auto& light : s.shadow_memory) {
     memory.push_back({{"light", light.light}, {"maps", light.maps}, {"bytes", light.bytes}});
   }
-  return {{"load_ms", load_ms},       {"plan_ms", s.plan_ms},     {"shadow_ms", s.shadow_ms},
-          {"bin_ms", s.bin_ms},       {"shade_ms", s.shade_ms},   {"render_ms", s.total_ms},
-          {"write_ms", write_ms},     {"triangles", s.triangles}, {"triangles_drawn", s.triangles_drawn},
+  return {{"load_ms", load_ms},         {"plan_ms", s.plan_ms},     {"shadow_ms", s.shadow_ms},
+          {"bin_ms", s.bin_ms},         {"shade_ms", s.shade_ms},   {"render_ms", s.total_ms},
+          {"write_ms", write_ms},       {"triangles", s.triangles}, {"triangles_drawn", s.triangles_drawn},
           {"maps_drawn", s.maps_drawn}, {"maps_kept", s.maps_kept}, {"shadow_memory", memory}};
 }
 
@@ -150,8 +156,10 @@ class RenderCommand {
     if (!exposure) return report(exposure.error());
     const Result<std::optional<glm::vec3>> background = parse_background(options_.background);
     if (!background) return report(background.error());
-    if (const std::string fault = find_output_fault(*settings); !fault.empty()) return report(bad_option(fault));
-    if (Result<void> writable = check_image_output(options_.output); !writable) return report(writable.error());
+    if (const std::string fault = find_output_fault(*settings); !fault.empty())
+      return report(bad_option(fault));
+    if (Result<void> writable = check_image_output(options_.output); !writable)
+      return report(writable.error());
     const Result<Renderer> renderer = options_.scene.make_renderer([&](Scene& scene) {
       if (*background) scene.background = *background;
     });
@@ -171,7 +179,8 @@ class RenderCommand {
     if (!settings.layers.empty() && !has_ending(options_.output, ".exr")) {
       return "--layers: only OpenEXR holds layers: give an output that ends in .exr";
     }
-    if (options_.debug.empty() || options_.debug == "depth" || options_.debug.rfind("project-depth:", 0) == 0) return {};
+    if (options_.debug.empty() || options_.debug == "depth" || options_.debug.rfind("project-depth:", 0) == 0)
+      return {};
     return fmt::format("--debug: expected depth or project-depth:LIGHT, got \"{}\"", options_.debug);
   }
 
@@ -188,9 +197,11 @@ class RenderCommand {
       if (!has_ending(options_.output, ".exr")) advise_exposure(*image, write.exposure);
     }
     // Formats for the screen hold no coverage unless it was asked for.
-    if (!is_debug && !has_ending(options_.output, ".exr") && options_.background != "transparent") image->channels.resize(3);
+    if (!is_debug && !has_ending(options_.output, ".exr") && options_.background != "transparent")
+      image->channels.resize(3);
     const auto write_start = std::chrono::steady_clock::now();
-    if (Result<void> written = write_image(*image, options_.output, write); !written) return report(written.error());
+    if (Result<void> written = write_image(*image, options_.output, write); !written)
+      return report(written.error());
     if (options_.json) {
       nlohmann::json json = statistics_json(statistics, load_ms_, elapsed(write_start));
       json["output"] = options_.output;
@@ -207,10 +218,12 @@ class RenderCommand {
     if (options_.debug.rfind(kProjectDepth, 0) == 0) {
       return projected_depth(renderer, view, settings, options_.debug.substr(kProjectDepth.size()));
     }
-    if (options_.debug != "depth") return renderer.render(view, settings, progress_line("rendering"), &statistics);
+    if (options_.debug != "depth")
+      return renderer.render(view, settings, progress_line("rendering"), &statistics);
     RenderSettings with_depth = settings;
     with_depth.layers = {Layer::depth};
-    const Result<LayeredImage> image = renderer.render(view, with_depth, progress_line("rendering"), &statistics);
+    const Result<LayeredImage> image =
+        renderer.render(view, with_depth, progress_line("rendering"), &statistics);
     if (!image) return image;
     return depth_picture(*image);
   }
@@ -234,19 +247,26 @@ void declare_picture_options(CLI::App& command, RenderOptions& o) {
   command.add_option("--samples", o.samples, "samples per pixel: 1, 2, 4, 8 or 16")
       ->check(CLI::IsMember({1, 2, 4, 8, 16}))
       ->capture_default_str();
-  command.add_option("--shadows", o.shadows, "technique for lights that name none; --list-techniques tells more")
+  command
+      .add_option("--shadows", o.shadows, "technique for lights that name none; --list-techniques tells more")
       ->check(CLI::IsMember({"none", "map", "raytraced"}))
       ->capture_default_str();
-  command.add_option("--shading", o.shading, "papers: colour times light, nothing else; phong; pbr: as glTF defines it")
+  command
+      .add_option("--shading", o.shading,
+                  "papers: colour times light, nothing else; phong; pbr: as glTF defines it")
       ->check(CLI::IsMember(names_of(kShading)))
       ->capture_default_str();
-  command.add_option("--passes", o.passes, "multi: the papers' frame-buffer algorithms, literally; same picture, slower")
+  command
+      .add_option("--passes", o.passes,
+                  "multi: the papers' frame-buffer algorithms, literally; same picture, slower")
       ->check(CLI::IsMember(names_of(kPasses)))
       ->capture_default_str();
-  command.add_option("--interpolation", o.interpolation, "affine: deliberately wrong, shows texture swimming")
+  command
+      .add_option("--interpolation", o.interpolation, "affine: deliberately wrong, shows texture swimming")
       ->check(CLI::IsMember(names_of(kInterpolation)))
       ->capture_default_str();
-  command.add_option("--anisotropy", o.anisotropy, "most probes along a stretched texture footprint, 1 to 16")
+  command
+      .add_option("--anisotropy", o.anisotropy, "most probes along a stretched texture footprint, 1 to 16")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
 }
@@ -256,15 +276,20 @@ void declare_picture_options(CLI::App& command, RenderOptions& o) {
 void declare_render(CLI::App& app, Run& run) {
   auto options = std::make_shared<RenderOptions>();
   RenderOptions& o = *options;
-  CLI::App* command = app.add_subcommand("render", "draw a picture of scenes lit by projectors, spotlights and suns");
+  CLI::App* command =
+      app.add_subcommand("render", "draw a picture of scenes lit by projectors, spotlights and suns");
   command->footer(kFooter);
   o.scene.declare_scene(*command);
-  command->add_option("-o,--output", o.output, "picture to write: .png, .exr, .hdr or .pfm; - is PNG on standard output")->required();
+  command
+      ->add_option("-o,--output", o.output,
+                   "picture to write: .png, .exr, .hdr or .pfm; - is PNG on standard output")
+      ->required();
   o.view.declare(*command);
   declare_picture_options(*command, o);
   std::vector<std::string> layers = {"all"};
   for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);
-  command->add_option("--layers", o.layers, "further channels of an .exr, by comma; --list-layers tells which")
+  command
+      ->add_option("--layers", o.layers, "further channels of an .exr, by comma; --list-layers tells which")
       ->delimiter(',')
       ->check(CLI::IsMember(layers));
   command->add_option("--exposure", o.exposure, "stops, or auto; for .png and .hdr")->capture_default_str();
@@ -272,11 +297,24 @@ void declare_render(CLI::App& app, Run& run) {
   command->add_option("--depth", o.depth, "of the output: 8 or 16 bits (PNG), half or float (EXR)")
       ->check(CLI::IsMember(names_of(kDepth)))
       ->capture_default_str();
-  command->add_option("--debug", o.debug, "depth: grey ramp; project-depth:LIGHT: a light's depth map thrown on the scene");
+  command->add_option("--debug", o.debug,
+                      "depth: grey ramp; project-depth:LIGHT: a light's depth map thrown on the scene");
   o.scene.declare_machine(*command);
   command->add_flag("--json", o.json, "print what it cost, to standard output");
-  command->add_flag_callback("--list-techniques", [] { list_all_techniques(); throw CLI::Success(); }, "print shadow techniques and end");
-  command->add_flag_callback("--list-layers", [] { list_all_layers(); throw CLI::Success(); }, "print layers and end");
+  command->add_flag_callback(
+      "--list-techniques",
+      [] {
+        list_all_techniques();
+        throw CLI::Success();
+      },
+      "print shadow techniques and end");
+  command->add_flag_callback(
+      "--list-layers",
+      [] {
+        list_all_layers();
+        throw CLI::Success();
+      },
+      "print layers and end");
   command->callback([options, &run] { run = [options] { return RenderCommand(*options).run(); }; });
 }
 

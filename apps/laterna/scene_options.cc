@@ -10,13 +10,12 @@
 
 namespace laterna::app {
 
-Error bad_option(std::string message) {
-  return {Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}};
-}
+Error bad_option(std::string message) { return {Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}}; }
 
 void SceneOptions::declare_scene(CLI::App& command) {
   command.add_option("SCENE", files, "glTF, GLB, OBJ, PLY, STL, MD2, …; several are merged")->required();
-  command.add_option("--rig", rigs, "JSON with cameras, lights and projectors by name; may be given several times");
+  command.add_option("--rig", rigs,
+                     "JSON with cameras, lights and projectors by name; may be given several times");
   command.add_option("--up", up, "which axis points up in formats that do not say")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
@@ -28,11 +27,13 @@ void SceneOptions::declare_scene(CLI::App& command) {
 void SceneOptions::declare_machine(CLI::App& command) {
   command.add_option("--threads", threads, "0: one per processor; the picture is the same for any number")
       ->capture_default_str();
-  command.add_option("--isa", instruction_set, "instruction set: scalar, sse4, avx2, avx512 or neon; the picture is the same");
+  command.add_option("--isa", instruction_set,
+                     "instruction set: scalar, sse4, avx2, avx512 or neon; the picture is the same");
 }
 
 Result<Scene> SceneOptions::load() const {
-  static const std::map<std::string, double> kMetres = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
+  static const std::map<std::string, double> kMetres = {
+      {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
   LoadOptions options;
   options.up = up == "z" ? LoadOptions::Up::z : LoadOptions::Up::y;
   options.metres_per_unit = kMetres.at(unit);
@@ -48,7 +49,9 @@ Result<RendererOptions> SceneOptions::renderer_options() const {
   if (instruction_set.empty()) return options;
   options.instruction_set = instruction_set_named(instruction_set);
   if (!options.instruction_set) {
-    return tl::unexpected(bad_option(fmt::format("--isa: there is no instruction set \"{}\"; there are scalar, sse4, avx2, avx512 and neon", instruction_set)));
+    return tl::unexpected(bad_option(fmt::format(
+        "--isa: there is no instruction set \"{}\"; there are scalar, sse4, avx2, avx512 and neon",
+        instruction_set)));
   }
   return options;
 }
@@ -82,8 +85,10 @@ Result<ViewOptions::Size> ViewOptions::parse_size() const {
     return fault == std::errc() && end == text.data() + text.size() && value > 0;
   };
   const std::string_view text = size;
-  if (x == std::string::npos || !number(text.substr(0, x), parsed.width) || !number(text.substr(x + 1), parsed.height)) {
-    return tl::unexpected(bad_option(fmt::format("--size: expected WIDTHxHEIGHT such as 1920x1080, got \"{}\"", size)));
+  if (x == std::string::npos || !number(text.substr(0, x), parsed.width) ||
+      !number(text.substr(x + 1), parsed.height)) {
+    return tl::unexpected(
+        bad_option(fmt::format("--size: expected WIDTHxHEIGHT such as 1920x1080, got \"{}\"", size)));
   }
   return parsed;
 }

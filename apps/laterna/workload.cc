@@ -10,7 +10,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-glm::dvec3 vector_of(const Json& j) { return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()}; }
+glm::dvec3 vector_of(const Json& j) {
+  return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
+}
 
 Error fault(const std::filesystem::path& file, std::string place, std::string message) {
   return {Failure::bad_input, Diagnostic{file.string(), std::move(place), std::move(message)}};
@@ -47,8 +49,8 @@ Result<void> add_light(Scene& scene, const Json& j, const std::filesystem::path&
   } else {
     light.type = LightType::directional;
     light.fit = false;
-    light.projection =
-        Projection::orthographic(j.at("half_width").get<double>(), j.at("half_height").get<double>(), near, far);
+    light.projection = Projection::orthographic(j.at("half_width").get<double>(),
+                                                j.at("half_height").get<double>(), near, far);
   }
   const Result<Pose> pose =
       Pose::look_at(vector_of(j.at("position")), vector_of(j.at("target")), vector_of(j.at("up")));
@@ -92,13 +94,15 @@ void place_bunnies(Scene& scene, const Json& w) {
 Result<Workload> build(const Json& all, const Json& w, const std::filesystem::path& scenes) {
   Workload workload;
   const bool is_bunnies = w.at("scene") == "bunnies";
-  const std::filesystem::path model = is_bunnies ? scenes / "bunny/bunny.gltf" : scenes / "sponza/Sponza.gltf";
+  const std::filesystem::path model =
+      is_bunnies ? scenes / "bunny/bunny.gltf" : scenes / "sponza/Sponza.gltf";
   Result<Scene> scene = load_scene({model});
   if (!scene) return tl::unexpected(scene.error());
   workload.scene = std::move(*scene);
   if (is_bunnies) place_bunnies(workload.scene, w);
   for (const Json& light : w.at("lights")) {
-    if (Result<void> added = add_light(workload.scene, light, scenes); !added) return tl::unexpected(added.error());
+    if (Result<void> added = add_light(workload.scene, light, scenes); !added)
+      return tl::unexpected(added.error());
   }
   workload.scene.ambient = glm::vec3(vector_of(w.at("ambient")));
   workload.scene.ambient_is_set = true;
@@ -114,9 +118,10 @@ Result<Workload> build(const Json& all, const Json& w, const std::filesystem::pa
   settings.height = all.at("height").get<int>();
   settings.shading = ShadingModel::phong;
   settings.anisotropy = 1;
-  workload.view = {*pose, Projection::perspective(Angle::degrees(camera.at("fovy_deg").get<double>()),
-                                                  static_cast<double>(settings.width) / settings.height,
-                                                  camera.at("near").get<double>(), camera.at("far").get<double>())};
+  workload.view = {*pose,
+                   Projection::perspective(Angle::degrees(camera.at("fovy_deg").get<double>()),
+                                           static_cast<double>(settings.width) / settings.height,
+                                           camera.at("near").get<double>(), camera.at("far").get<double>())};
   return workload;
 }
 
@@ -133,7 +138,8 @@ Result<Workload> load_workload(const std::filesystem::path& file, const std::str
     if (!workloads.contains(name)) {
       std::string names;
       for (const auto& [known, value] : workloads.items()) names += (names.empty() ? "" : ", ") + known;
-      return tl::unexpected(fault(file, "workloads", fmt::format("there is no \"{}\"; there are {}", name, names)));
+      return tl::unexpected(
+          fault(file, "workloads", fmt::format("there is no \"{}\"; there are {}", name, names)));
     }
     return build(all, workloads.at(name), scenes.empty() ? file.parent_path() / "scenes" : scenes);
   } catch (const Json::exception& e) {

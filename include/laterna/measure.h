@@ -33,7 +33,7 @@ Result<LayeredImage> depth_picture(const LayeredImage& depth);
 
 /// The light's depth map thrown back on the scene (document 003): every surface shows the grey that the map holds for
 /// it. Surfaces outside the map are black. The sky is the background.
-Result<LayeredImage> projected_depth(const Renderer& renderer, const View& camera, const RenderSettings& settings,
-                                     const std::string& light);
+Result<LayeredImage> projected_depth(const Renderer& renderer, const View& camera,
+                                     const RenderSettings& settings, const std::string& light);
 
 }  // namespace laterna

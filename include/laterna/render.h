@@ -48,15 +48,15 @@ struct TechniqueDescription {
 std::span<const TechniqueDescription> list_techniques();
 
 struct RenderSettings {
-  int width = 1280, height = 720;                          ///< 1…16384 each
-  int samples = 1;                                         ///< per pixel: 1, 2, 4, 8 or 16
+  int width = 1280, height = 720;  ///< 1…16384 each
+  int samples = 1;                 ///< per pixel: 1, 2, 4, 8 or 16
   ShadingModel shading = ShadingModel::pbr;
-  ShadowTechnique shadows = ShadowTechnique::map;          ///< for lights that name none
+  ShadowTechnique shadows = ShadowTechnique::map;  ///< for lights that name none
   Passes passes = Passes::single;
   Interpolation interpolation = Interpolation::perspective;
-  int anisotropy = 8;                                      ///< most probes of a stretched texture footprint, 1…16
+  int anisotropy = 8;  ///< most probes of a stretched texture footprint, 1…16
   std::vector<Layer> layers;
-  bool keep_shadow_maps = true;                            ///< false: drawn anew even where nothing has changed
+  bool keep_shadow_maps = true;  ///< false: drawn anew even where nothing has changed
 };
 
 /// Called now and then with the fraction done, in [0, 1], from one thread at a time; false asks to stop.
@@ -67,7 +67,7 @@ struct ColorTarget8 {
   std::uint8_t* pixels = nullptr;  ///< sRGB-encoded
   int channels = 3;                ///< 3: R, G, B; 4: with alpha, colour not premultiplied
   std::size_t row_stride = 0;
-  float exposure = 1;              ///< factor on linear light before encoding
+  float exposure = 1;  ///< factor on linear light before encoding
 };
 struct ChannelTarget {
   std::string name;  ///< a channel's name, such as "R", "Z" or "light.sun.G"
@@ -86,8 +86,9 @@ struct RenderStatistics {
   double bin_ms = 0;     ///< culling, transforming, clipping, sorting by tile
   double shade_ms = 0;   ///< rasterising and shading
   double total_ms = 0;
-  std::uint64_t triangles = 0, triangles_drawn = 0;  ///< of the camera's view: considered, and sorted into tiles
-  int maps_drawn = 0, maps_kept = 0;                 ///< shadow maps
+  std::uint64_t triangles = 0,
+                triangles_drawn = 0;  ///< of the camera's view: considered, and sorted into tiles
+  int maps_drawn = 0, maps_kept = 0;  ///< shadow maps
   struct LightMemory {
     std::string light;
     int maps = 0;
@@ -97,8 +98,8 @@ struct RenderStatistics {
 };
 
 struct RendererOptions {
-  int threads = 0;                                   ///< 0: one per processor
-  std::optional<InstructionSet> instruction_set;     ///< unset: the best this machine has
+  int threads = 0;                                ///< 0: one per processor
+  std::optional<InstructionSet> instruction_set;  ///< unset: the best this machine has
 };
 
 class Renderer {
@@ -125,8 +126,8 @@ class Renderer {
   [[nodiscard]] std::vector<std::string> channel_names(const RenderSettings& settings) const;
 
   /// Draws into the caller's memory. Shadow maps are kept from call to call while lights and casters stay.
-  Result<RenderStatistics> render_into(const View& view, const RenderSettings& settings, const RenderTarget& target,
-                                       const Progress& progress = {}) const;
+  Result<RenderStatistics> render_into(const View& view, const RenderSettings& settings,
+                                       const RenderTarget& target, const Progress& progress = {}) const;
   /// Draws all channels, with metadata. R, G, B are linear and unclamped; A is coverage, colour premultiplied by it.
   Result<LayeredImage> render(const View& view, const RenderSettings& settings, const Progress& progress = {},
                               RenderStatistics* statistics = nullptr) const;

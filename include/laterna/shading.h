@@ -7,8 +7,8 @@ namespace laterna {
 
 enum class ShadingModel : std::uint8_t {
   papers,  ///< base colour · (ambient + Σ slide · α): no n·l, no distance (Segal et al. 1992, section 3.1)
-  phong,   ///< base colour · E (n·l) + k_s E (n·h)^p: Lambert and Blinn-Phong
-  pbr,     ///< glTF 2.0 metallic-roughness: GGX, Smith, Schlick
+  phong,  ///< base colour · E (n·l) + k_s E (n·h)^p: Lambert and Blinn-Phong
+  pbr,    ///< glTF 2.0 metallic-roughness: GGX, Smith, Schlick
 };
 
 enum class Interpolation : std::uint8_t {
@@ -18,7 +18,7 @@ enum class Interpolation : std::uint8_t {
 
 enum class Passes : std::uint8_t {
   single,  ///< every visible sample shaded once, all lights together
-  multi,   ///< the papers' frame-buffer algorithms, literally: the scene drawn again for each pass of each light
+  multi,  ///< the papers' frame-buffer algorithms, literally: the scene drawn again for each pass of each light
 };
 
 }  // namespace laterna

@@ -29,7 +29,7 @@ class Angle {
 
 /// Where a camera or light stands. It looks down its own −Z; +X is its right, +Y its up.
 struct Pose {
-  glm::dvec3 position_ws{0};                ///< metres
+  glm::dvec3 position_ws{0};                 ///< metres
   glm::dmat3 world_from_view_rotation{1.0};  ///< columns: right, up, backward; orthonormal, right-handed
 
   /// Pose at `position_ws` looking at `target_ws`. `up_ws` need not be perpendicular to the gaze.

@@ -19,7 +19,8 @@
 #define LATERNA_BASE_SIMD_H_
 
 // SSSE3 and AVX3_DL bring nothing that SSE4 and AVX3 lack here; SVE and RVV vectors have no fixed size.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 
 #include <array>
 #include <cstddef>
@@ -41,13 +42,13 @@ Function select_kernel(const std::array<Function, kInstructionSets>& kernels, In
 }  // namespace laterna
 
 // In the order of InstructionSet.
-#define LATERNA_KERNEL_TABLE(kernel)                                                               \
-  decltype(&HWY_STATIC_DISPATCH(kernel)) kernel##_for(InstructionSet set) {                        \
-    using Function = decltype(&HWY_STATIC_DISPATCH(kernel));                                       \
-    static constexpr std::array<Function, kInstructionSets> kKernels = {                           \
-        HWY_CHOOSE_FALLBACK(kernel), HWY_CHOOSE_SSE4(kernel), HWY_CHOOSE_AVX2(kernel),             \
-        HWY_CHOOSE_AVX3(kernel), HWY_CHOOSE_NEON(kernel)};                                         \
-    return select_kernel(kKernels, set);                                                           \
+#define LATERNA_KERNEL_TABLE(kernel)                                                   \
+  decltype(&HWY_STATIC_DISPATCH(kernel)) kernel##_for(InstructionSet set) {            \
+    using Function = decltype(&HWY_STATIC_DISPATCH(kernel));                           \
+    static constexpr std::array<Function, kInstructionSets> kKernels = {               \
+        HWY_CHOOSE_FALLBACK(kernel), HWY_CHOOSE_SSE4(kernel), HWY_CHOOSE_AVX2(kernel), \
+        HWY_CHOOSE_AVX3(kernel), HWY_CHOOSE_NEON(kernel)};                             \
+    return select_kernel(kKernels, set);                                               \
   }
 
 #endif  // LATERNA_BASE_SIMD_H_

@@ -22,11 +22,11 @@ inline constexpr std::uint32_t cluster_of(TriangleId id) { return id >> kTriangl
 
 enum ClusterFlag : std::uint32_t {
   kDoubleSided = 1U << 0U,
-  kAlphaMask = 1U << 1U,    // coverage is cut by the alpha of the base colour
-  kAlphaBlend = 1U << 2U,   // drawn over what is behind it
+  kAlphaMask = 1U << 1U,   // coverage is cut by the alpha of the base colour
+  kAlphaBlend = 1U << 2U,  // drawn over what is behind it
   kCastsShadow = 1U << 3U,
   kReceivesShadow = 1U << 4U,
-  kVisible = 1U << 5U,      // to cameras
+  kVisible = 1U << 5U,  // to cameras
 };
 
 struct Cluster {

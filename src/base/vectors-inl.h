@@ -46,10 +46,12 @@ HWY_INLINE Vector3 Cross(const Vector3& a, const Vector3& b) {
 HWY_INLINE Vector3 Normalised(const Vector3& v) {
   const auto length_squared = Dot(v, v);
   const auto is_zero = length_squared <= Splat(1e-36F);
-  return v * hn::IfThenZeroElse(is_zero, Splat(1.0F) / hn::Sqrt(hn::IfThenElse(is_zero, Splat(1.0F), length_squared)));
+  return v * hn::IfThenZeroElse(is_zero,
+                                Splat(1.0F) / hn::Sqrt(hn::IfThenElse(is_zero, Splat(1.0F), length_squared)));
 }
 HWY_INLINE Vector3 IfThenElse3(FloatMask mask, const Vector3& yes, const Vector3& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
 }
 
 HWY_INLINE FloatVector Saturate(FloatVector v) { return hn::Min(hn::Max(v, Splat(0.0F)), Splat(1.0F)); }

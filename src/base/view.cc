@@ -22,7 +22,8 @@ Result<Pose> Pose::look_at(glm::dvec3 position_ws, glm::dvec3 target_ws, glm::dv
     return fault("position, target and up must be finite numbers");
   }
   const glm::dvec3 gaze = target_ws - position_ws;
-  if (glm::length(gaze) == 0) return fault("position and target are the same point: there is no direction to look in");
+  if (glm::length(gaze) == 0)
+    return fault("position and target are the same point: there is no direction to look in");
   if (glm::length(up_ws) == 0) return fault("up is the zero vector");
   const glm::dvec3 forward = gaze / glm::length(gaze);
   const glm::dvec3 side = glm::cross(forward, up_ws / glm::length(up_ws));
@@ -43,7 +44,8 @@ Result<Pose> Pose::from_matrix(const glm::dmat4& world_from_node) {
   }
   if (!is_finite(glm::dvec3(world_from_node[3]))) return fault("the matrix holds a value that is not finite");
   // −Z is what a camera or light looks along, so it keeps its direction; the others are made perpendicular to it.
-  if (glm::length(axes[2]) == 0) return fault("the matrix has no direction along Z: its third column is zero");
+  if (glm::length(axes[2]) == 0)
+    return fault("the matrix has no direction along Z: its third column is zero");
   const glm::dvec3 backward = axes[2] / glm::length(axes[2]);
   const glm::dvec3 side = glm::cross(axes[1], backward);
   if (glm::length(side) <= 1e-12 * glm::length(axes[1]) || glm::length(axes[1]) == 0) {
@@ -78,15 +80,10 @@ Projection Projection::orthographic(double half_width, double half_height, doubl
   return {true, -half_width, half_width, -half_height, half_height, near, far};
 }
 
-Projection Projection::from_intrinsics(double fx, double fy, double cx, double cy, double width, double height,
-                                       double near, double far) {
+Projection Projection::from_intrinsics(double fx, double fy, double cx, double cy, double width,
+                                       double height, double near, double far) {
   // OpenCV counts pixel centres from 0; the picture's left side is at −0.5, its right side at width − 0.5.
-  return {false,
-          (-0.5 - cx) / fx,
-          (width - 0.5 - cx) / fx,
-          -(height - 0.5 - cy) / fy,
-          (0.5 + cy) / fy,
-          near,
+  return {false, (-0.5 - cx) / fx, (width - 0.5 - cx) / fx, -(height - 0.5 - cy) / fy, (0.5 + cy) / fy, near,
           far};
 }
 
@@ -94,7 +91,8 @@ Angle Projection::yfov() const { return Angle::radians(arctangent(top) - arctang
 
 std::string find_fault(const Projection& p) {
   for (const double side : {p.left, p.right, p.bottom, p.top}) {
-    if (!std::isfinite(side)) return "the frustum's sides must be finite (is the field of view 180° or more?)";
+    if (!std::isfinite(side))
+      return "the frustum's sides must be finite (is the field of view 180° or more?)";
   }
   if (p.left >= p.right || p.bottom >= p.top) return "the frustum has no width or no height";
   if (!std::isfinite(p.near) || std::isnan(p.far)) return "near and far must be numbers, near finite";
@@ -113,7 +111,8 @@ glm::dmat4 View::clip_from_view() const {
     m[0][0] = 2 / width;
     m[1][1] = 2 / height;
     m[2][2] = -2 / (p.far - p.near);
-    m[3] = glm::dvec4(-(p.right + p.left) / width, -(p.top + p.bottom) / height, -(p.far + p.near) / (p.far - p.near), 1);
+    m[3] = glm::dvec4(-(p.right + p.left) / width, -(p.top + p.bottom) / height,
+                      -(p.far + p.near) / (p.far - p.near), 1);
     return m;
   }
   m[0][0] = 2 / width;

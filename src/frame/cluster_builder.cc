@@ -45,7 +45,9 @@ class TriangleList {
       : indices_(indices), count_((indices.empty() ? positions.size() : indices.size()) / 3) {}
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] Corners operator[](std::size_t i) const {
-    const auto at = [&](std::size_t k) { return indices_.empty() ? static_cast<std::uint32_t>(k) : indices_[k]; };
+    const auto at = [&](std::size_t k) {
+      return indices_.empty() ? static_cast<std::uint32_t>(k) : indices_[k];
+    };
     return {at(3 * i), at(3 * i + 1), at(3 * i + 2)};
   }
 
@@ -82,7 +84,8 @@ std::vector<Keyed> order_in_space(std::span<const glm::vec3> positions, const Tr
 
 class ClusterFiller {
  public:
-  ClusterFiller(ClusteredPrimitive& out, std::size_t vertices) : out_(out), local_(vertices), stamp_(vertices, 0) {}
+  ClusterFiller(ClusteredPrimitive& out, std::size_t vertices)
+      : out_(out), local_(vertices), stamp_(vertices, 0) {}
 
   void add(const Corners& corners) {
     std::uint32_t fresh = 0;
@@ -122,7 +125,8 @@ class ClusterFiller {
 
 }  // namespace
 
-ClusteredPrimitive build_clusters(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
+ClusteredPrimitive build_clusters(std::span<const glm::vec3> positions,
+                                  std::span<const std::uint32_t> indices) {
   const TriangleList triangles(positions, indices);
   ClusteredPrimitive out;
   ClusterFiller filler(out, positions.size());

@@ -20,12 +20,13 @@ struct ClusteredPrimitive {
   };
   std::vector<Extent> clusters;
   std::vector<std::uint32_t> source_vertices;  // the primitive's vertex behind each cluster vertex
-  std::vector<std::uint32_t> corners;          // kTrianglesPerCluster per cluster, packed, padded with 0 (degenerate)
+  std::vector<std::uint32_t> corners;  // kTrianglesPerCluster per cluster, packed, padded with 0 (degenerate)
 };
 
 /// `indices` may be empty: positions then come in triples. Triangles whose indices repeat are dropped. The order
 /// depends on the input alone.
-ClusteredPrimitive build_clusters(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
+ClusteredPrimitive build_clusters(std::span<const glm::vec3> positions,
+                                  std::span<const std::uint32_t> indices);
 
 /// All primitives of a scene, by mesh and primitive.
 using ClusteredMeshes = std::vector<std::vector<ClusteredPrimitive>>;

@@ -43,8 +43,9 @@ std::vector<PlacedPart> place_parts(const Scene& scene, const ClusteredMeshes& m
     if (node.mesh < 0) continue;
     const std::size_t instances = node.node_from_instance.empty() ? 1 : node.node_from_instance.size();
     for (std::size_t k = 0; k < instances; ++k) {
-      const glm::dmat4 world_from_object =
-          node.node_from_instance.empty() ? world_from_node[n] : world_from_node[n] * node.node_from_instance[k];
+      const glm::dmat4 world_from_object = node.node_from_instance.empty()
+                                               ? world_from_node[n]
+                                               : world_from_node[n] * node.node_from_instance[k];
       const auto object = static_cast<std::uint32_t>(frame.object_names.size());
       const auto mesh = static_cast<std::size_t>(node.mesh);
       std::string name = node.name.empty() ? scene.meshes[mesh].name : node.name;
@@ -52,9 +53,16 @@ std::vector<PlacedPart> place_parts(const Scene& scene, const ClusteredMeshes& m
       frame.object_names.push_back(std::move(name));
       for (std::size_t p = 0; p < meshes[mesh].size(); ++p) {
         const Primitive& primitive = scene.meshes[mesh].primitives[p];
-        placed.push_back({&primitive, &meshes[mesh][p], world_from_object, object,
-                          primitive.material < 0 ? default_surface : static_cast<std::uint32_t>(primitive.material),
-                          node_flags(node) | material_flags(scene, primitive.material), 0, 0, {}});
+        placed.push_back(
+            {&primitive,
+             &meshes[mesh][p],
+             world_from_object,
+             object,
+             primitive.material < 0 ? default_surface : static_cast<std::uint32_t>(primitive.material),
+             node_flags(node) | material_flags(scene, primitive.material),
+             0,
+             0,
+             {}});
       }
     }
   }
@@ -80,7 +88,8 @@ void lay_out(std::vector<PlacedPart>& placed, Frame& frame) {
     clusters += p.clustered->clusters.size();
     vertices += count;
     p.streams.normal = take(normals, count, !primitive.normals.empty());
-    for (std::size_t set = 0; set < 2; ++set) p.streams.uv[set] = take(uvs[set], count, !primitive.uv[set].empty());
+    for (std::size_t set = 0; set < 2; ++set)
+      p.streams.uv[set] = take(uvs[set], count, !primitive.uv[set].empty());
     p.streams.color = take(colors, count, !primitive.colors.empty());
     p.streams.tangent = take(tangents, count, !primitive.tangents.empty());
   }
@@ -173,7 +182,9 @@ class PartWriter {
       cluster.material = placed_.surface;
       cluster.object = placed_.object;
       find_bounds(cluster);
-      const auto shifted = [&](std::uint32_t first) { return first == kNoStream ? first : first + extent.first_vertex; };
+      const auto shifted = [&](std::uint32_t first) {
+        return first == kNoStream ? first : first + extent.first_vertex;
+      };
       frame_.streams[at] = {shifted(placed_.streams.normal),
                             {shifted(placed_.streams.uv[0]), shifted(placed_.streams.uv[1])},
                             shifted(placed_.streams.color),
@@ -181,8 +192,11 @@ class PartWriter {
       const std::uint32_t* from = clustered.corners.data() + c * kTrianglesPerCluster;
       std::uint32_t* to = frame_.corners.data() + at * kTrianglesPerCluster;
       // A mirroring instance would turn its triangles' fronts to the back.
-      const auto turned = [](std::uint32_t k) { return (k & 0xFFU) | (k >> 8U & 0xFF00U) | (k & 0xFF00U) << 8U; };
-      for (std::uint32_t t = 0; t < kTrianglesPerCluster; ++t) to[t] = is_mirrored_ ? turned(from[t]) : from[t];
+      const auto turned = [](std::uint32_t k) {
+        return (k & 0xFFU) | (k >> 8U & 0xFF00U) | (k & 0xFF00U) << 8U;
+      };
+      for (std::uint32_t t = 0; t < kTrianglesPerCluster; ++t)
+        to[t] = is_mirrored_ ? turned(from[t]) : from[t];
     }
   }
 
@@ -228,8 +242,8 @@ Bounds bounds_of(const std::vector<Cluster>& clusters) {
 
 }  // namespace
 
-void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes, const std::vector<glm::dmat4>& world_from_node,
-                    const TaskPool& pool, Frame& frame) {
+void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
+                    const std::vector<glm::dmat4>& world_from_node, const TaskPool& pool, Frame& frame) {
   std::vector<PlacedPart> placed = place_parts(scene, meshes, world_from_node, frame);
   lay_out(placed, frame);
   pool.for_each(placed.size(), [&](std::size_t i, int) { PartWriter(placed[i], frame).write(); });

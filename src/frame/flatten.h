@@ -6,7 +6,7 @@
 namespace laterna::frame {
 
 /// Fills the frame's vertices, corners, clusters, streams, object names and bounds.
-void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes, const std::vector<glm::dmat4>& world_from_node,
-                    const TaskPool& pool, Frame& frame);
+void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
+                    const std::vector<glm::dmat4>& world_from_node, const TaskPool& pool, Frame& frame);
 
 }  // namespace laterna::frame

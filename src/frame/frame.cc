@@ -42,10 +42,12 @@ std::vector<Diagnostic> find_far_objects(const Frame& frame) {
   std::uint32_t last = kNoStream;
   for (const Cluster& cluster : frame.clusters) {
     bool is_near = true;
-    for (int k = 0; k < 3; ++k) is_near &= std::abs(cluster.low_ws[k]) <= kFarthest && std::abs(cluster.high_ws[k]) <= kFarthest;
+    for (int k = 0; k < 3; ++k)
+      is_near &= std::abs(cluster.low_ws[k]) <= kFarthest && std::abs(cluster.high_ws[k]) <= kFarthest;
     if (is_near || cluster.object == last) continue;
     last = cluster.object;
-    faults.push_back({{}, "object \"" + frame.object_names[last] + "\"", "lies farther than 1e9 m from the origin"});
+    faults.push_back(
+        {{}, "object \"" + frame.object_names[last] + "\"", "lies farther than 1e9 m from the origin"});
   }
   return faults;
 }
@@ -56,7 +58,8 @@ Result<Frame> Frame::build(const Scene& scene, std::shared_ptr<const TextureLibr
                            const ClusteredMeshes& meshes, const TaskPool& pool) {
   Frame frame;
   frame.textures = std::move(textures);
-  for (const Material& material : scene.materials) frame.surfaces.push_back(make_surface(material, *frame.textures));
+  for (const Material& material : scene.materials)
+    frame.surfaces.push_back(make_surface(material, *frame.textures));
   frame.surfaces.push_back(make_surface(Material{}, *frame.textures));
   flatten_meshes(scene, meshes, world_from_nodes(scene), pool, frame);
   if (std::vector<Diagnostic> faults = find_far_objects(frame); !faults.empty()) {
@@ -80,13 +83,13 @@ std::size_t Frame::triangle_count() const {
 
 std::size_t Frame::memory_bytes() const {
   std::size_t floats = 0;
-  for (const auto* array : {&x_ws, &y_ws, &z_ws, &normal_x_ws, &normal_y_ws, &normal_z_ws, &uv_u[0], &uv_u[1], &uv_v[0],
-                            &uv_v[1], &color_r, &color_g, &color_b, &color_a, &tangent_x_ws, &tangent_y_ws,
-                            &tangent_z_ws, &tangent_sign}) {
+  for (const auto* array :
+       {&x_ws, &y_ws, &z_ws, &normal_x_ws, &normal_y_ws, &normal_z_ws, &uv_u[0], &uv_u[1], &uv_v[0], &uv_v[1],
+        &color_r, &color_g, &color_b, &color_a, &tangent_x_ws, &tangent_y_ws, &tangent_z_ws, &tangent_sign}) {
     floats += array->capacity();
   }
-  return floats * sizeof(float) + corners.capacity() * sizeof(std::uint32_t) + clusters.capacity() * sizeof(Cluster) +
-         streams.capacity() * sizeof(ClusterStreams);
+  return floats * sizeof(float) + corners.capacity() * sizeof(std::uint32_t) +
+         clusters.capacity() * sizeof(Cluster) + streams.capacity() * sizeof(ClusterStreams);
 }
 
 }  // namespace laterna::frame

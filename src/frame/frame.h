@@ -32,7 +32,8 @@ struct Surface {
   float metallic = 1, roughness = 1, normal_scale = 1, occlusion_strength = 1, alpha_cutoff = 0.5F;
   AlphaMode alpha_mode = AlphaMode::opaque;
   bool double_sided = false, unlit = false;
-  TextureBinding base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture, emissive_texture;
+  TextureBinding base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
+      emissive_texture;
 };
 
 /// A light where it stands. Colour and intensity stay in the scene's Light.

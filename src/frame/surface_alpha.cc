@@ -22,7 +22,9 @@ Taps find_taps(float coordinate, int size, Wrap wrap) {
   const float position = c * static_cast<float>(size) - 0.5F;
   const float floor = std::floor(position);
   const int low = static_cast<int>(floor);
-  const auto held = [&](int i) { return wrap == Wrap::repeat ? (i + size) % size : std::clamp(i, 0, size - 1); };
+  const auto held = [&](int i) {
+    return wrap == Wrap::repeat ? (i + size) % size : std::clamp(i, 0, size - 1);
+  };
   return {held(low), held(low + 1), position - floor};
 }
 
@@ -50,7 +52,8 @@ float alpha_at(const Frame& frame, TriangleId id, float b, float c) {
   const std::uint32_t packed = frame.corners[id];
   const auto interpolate = [&](const AlignedVector<float>& values, std::uint32_t first) {
     const float at_a = values[first + (packed & 255U)];
-    return at_a + ((values[first + (packed >> 8U & 255U)] - at_a) * b + (values[first + (packed >> 16U & 255U)] - at_a) * c);
+    return at_a + ((values[first + (packed >> 8U & 255U)] - at_a) * b +
+                   (values[first + (packed >> 16U & 255U)] - at_a) * c);
   };
   float alpha = surface.base_color[3];
   if (streams.color != kNoStream) alpha *= interpolate(frame.color_a, streams.color);

@@ -64,7 +64,8 @@ Result<TextureLibrary> TextureLibrary::load(const Scene& scene, const TaskPool& 
       pixels = &*decoded;
     }
     for (const image::MipUse use : uses) {
-      library.chains_.at({index, use}) = std::make_unique<image::MipChain>(image::make_mip_chain(*pixels, use));
+      library.chains_.at({index, use}) =
+          std::make_unique<image::MipChain>(image::make_mip_chain(*pixels, use));
     }
   });
   Error error;

@@ -102,8 +102,9 @@ class TriangleCorners {
       return {first, first != kNoStream};
     } else {
       const IntTag di;
-      const auto first = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(words),
-                                         clusters_ * SplatInt(kWords) + SplatInt(static_cast<std::int32_t>(field)));
+      const auto first =
+          hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(words),
+                          clusters_ * SplatInt(kWords) + SplatInt(static_cast<std::int32_t>(field)));
       const auto missing = first == SplatInt(-1);
       // Lanes without the stream read its beginning, and their value is not used.
       return {hn::IfThenZeroElse(missing, first), hn::RebindMask(FloatTag(), hn::Not(missing))};
@@ -113,7 +114,8 @@ class TriangleCorners {
   template <class First>
   HWY_INLINE CornerValues At(const float* values, const First& first) const {
     if constexpr (kUniform) {
-      return {Splat(values[first + local_[0]]), Splat(values[first + local_[1]]), Splat(values[first + local_[2]])};
+      return {Splat(values[first + local_[0]]), Splat(values[first + local_[1]]),
+              Splat(values[first + local_[2]])};
     } else {
       const FloatTag d;
       return {hn::GatherIndex(d, values, first + locals_[0]), hn::GatherIndex(d, values, first + locals_[1]),
@@ -139,7 +141,8 @@ class TriangleCorners {
     const IntTag di;
     const UintTag du;
     clusters_ = hn::BitCast(di, hn::ShiftRight<kTriangleBits>(hn::BitCast(du, ids)));
-    const auto packed = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(frame_.corners.data()), ids);
+    const auto packed =
+        hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(frame_.corners.data()), ids);
     const auto byte = SplatInt(255);
     locals_[0] = hn::And(packed, byte);
     locals_[1] = hn::And(hn::ShiftRight<8>(packed), byte);

@@ -253,7 +253,7 @@ class Lookup {
 // look-up, and keeps each kernel that reads textures from holding a dozen copies of this.
 template <bool kAlpha>
 HWY_NOINLINE Texel4 LookUp(const MipChain& chain, const Sampler& sampler, int anisotropy,
-                         const Footprint& footprint) {
+                           const Footprint& footprint) {
   switch (chain.format) {
     case TexelFormat::colour:
       return Lookup<TexelFormat::colour, kAlpha>(chain, sampler, anisotropy).Filtered(footprint);

@@ -122,7 +122,8 @@ Result<void> check_image_output(const std::filesystem::path& file) {
   if (!encode) return tl::unexpected(encode.error());
   std::error_code ignored;
   // Opening a pipe would tell its reader that the picture is at its end.
-  const bool is_special = std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored) &&
+  const bool is_special = std::filesystem::exists(file, ignored) &&
+                          !std::filesystem::is_regular_file(file, ignored) &&
                           !std::filesystem::is_directory(file, ignored);
   if (file == "-" || is_special) return {};
   const Result<OutputFile> output = OutputFile::create(file);

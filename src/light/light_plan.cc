@@ -45,7 +45,8 @@ CasterExtent casters_along(const Pose& pose, const Frame& frame) {
     const glm::dvec3 low(c.low_ws[0], c.low_ws[1], c.low_ws[2]);
     const glm::dvec3 high(c.high_ws[0], c.high_ws[1], c.high_ws[2]);
     const glm::dvec3 centre = 0.5 * (low + high) - pose.position_ws;
-    for (int k = 0; k < 3; ++k) ranges[k]->include(glm::dot(axes[k], centre), glm::dot(glm::abs(axes[k]), 0.5 * (high - low)));
+    for (int k = 0; k < 3; ++k)
+      ranges[k]->include(glm::dot(axes[k], centre), glm::dot(glm::abs(axes[k]), 0.5 * (high - low)));
   }
   return extent;
 }
@@ -59,7 +60,9 @@ ShadowView fit_to_casters(const Pose& pose, const Frame& frame, int resolution) 
   const double width = std::max(extent.x.length(), 1e-3 * largest);
   const double height = std::max(extent.y.length(), 1e-3 * largest);
   const double proportion = std::sqrt(width / height);
-  const auto side = [&](double texels) { return std::clamp(static_cast<int>(std::ceil(texels)), 16, kMaxResolution); };
+  const auto side = [&](double texels) {
+    return std::clamp(static_cast<int>(std::ceil(texels)), 16, kMaxResolution);
+  };
   ShadowView shadow;
   shadow.width = side(resolution * proportion);
   shadow.height = side(resolution / proportion);
@@ -102,7 +105,8 @@ std::vector<ShadowView> cube_views(const Pose& pose, const ShadowSettings& setti
   return views;
 }
 
-std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& frame, const ShadowSettings& settings) {
+std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& frame,
+                                     const ShadowSettings& settings) {
   const Light& light = *placed.light;
   const double range = light.range;
   switch (light.type) {
@@ -121,7 +125,8 @@ std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& fra
                settings.resolution,
                0}};
     }
-    case LightType::point: break;
+    case LightType::point:
+      break;
   }
   return cube_views(placed.pose, settings, range);
 }

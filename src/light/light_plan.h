@@ -19,7 +19,7 @@ struct ShadowView {
 struct PlannedLight {
   const frame::PlacedLight* placed = nullptr;
   ShadowTechnique technique = ShadowTechnique::none;
-  ShadowSettings settings;             // resolution filled in
+  ShadowSettings settings;               // resolution filled in
   std::vector<ShadowView> shadow_views;  // map: one, or six for a light that shines all round
 };
 

@@ -28,7 +28,8 @@ float DepthRamp::grey(float depth) const {
 Result<LayeredImage> depth_picture(const LayeredImage& depth) {
   const Channel* z = depth.find("Z");
   if (z == nullptr) {
-    return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, "a depth picture is made from a channel \"Z\""}));
+    return tl::unexpected(
+        Error(Failure::bad_usage, Diagnostic{{}, {}, "a depth picture is made from a channel \"Z\""}));
   }
   const measure::DepthRamp ramp(z->values);
   LayeredImage picture;

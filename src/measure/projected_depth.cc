@@ -37,15 +37,16 @@ std::optional<float> stored_depth(const LightMaps& light, const glm::dvec3& poin
     const double x = std::floor(q.x / q.w * map.width);
     const double y = std::floor(q.y / q.w * map.height);
     if (x < 0 || y < 0 || x >= map.width || y >= map.height) continue;
-    return map.channels[0].values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)];
+    return map.channels[0].values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                                  static_cast<std::size_t>(x)];
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-Result<LayeredImage> projected_depth(const Renderer& renderer, const View& camera, const RenderSettings& settings,
-                                     const std::string& light) {
+Result<LayeredImage> projected_depth(const Renderer& renderer, const View& camera,
+                                     const RenderSettings& settings, const std::string& light) {
   const Result<LightMaps> maps = draw_maps(renderer, light);
   if (!maps) return tl::unexpected(maps.error());
   RenderSettings wanted = settings;
@@ -55,7 +56,8 @@ Result<LayeredImage> projected_depth(const Renderer& renderer, const View& camer
   if (!drawn) return drawn;
 
   std::vector<float> all;
-  for (const LayeredImage& map : maps->maps) all.insert(all.end(), map.channels[0].values.begin(), map.channels[0].values.end());
+  for (const LayeredImage& map : maps->maps)
+    all.insert(all.end(), map.channels[0].values.begin(), map.channels[0].values.end());
   const measure::DepthRamp ramp(all);
   const std::vector<float>& x = drawn->find("P.X")->values;
   const std::vector<float>& y = drawn->find("P.Y")->values;

@@ -18,7 +18,8 @@ class AlphaCut {
  public:
   virtual ~AlphaCut() = default;
   /// Bits of `mask` whose sample the material keeps. Called from several threads at once.
-  [[nodiscard]] virtual std::uint32_t keep(TriangleId id, const BlockSamples& samples, std::uint32_t mask) const = 0;
+  [[nodiscard]] virtual std::uint32_t keep(TriangleId id, const BlockSamples& samples,
+                                           std::uint32_t mask) const = 0;
 };
 
 }  // namespace laterna::raster

@@ -6,11 +6,16 @@ namespace {
 // Signed distance to plane 0…4, linear in the homogeneous position, ≥ 0 inside.
 double distance(const ClipVertex& v, int plane, double guard_band) {
   switch (plane) {
-    case 0: return v.near_side;
-    case 1: return guard_band * v.w + v.x;
-    case 2: return guard_band * v.w - v.x;
-    case 3: return guard_band * v.w + v.y;
-    default: return guard_band * v.w - v.y;
+    case 0:
+      return v.near_side;
+    case 1:
+      return guard_band * v.w + v.x;
+    case 2:
+      return guard_band * v.w - v.x;
+    case 3:
+      return guard_band * v.w + v.y;
+    default:
+      return guard_band * v.w - v.y;
   }
 }
 
@@ -19,7 +24,8 @@ double distance(const ClipVertex& v, int plane, double guard_band) {
 ClipVertex intersect(const ClipVertex& inside, double d_inside, const ClipVertex& outside, double d_outside) {
   const double t = d_inside / (d_inside - d_outside);
   return {inside.x + t * (outside.x - inside.x), inside.y + t * (outside.y - inside.y),
-          inside.w + t * (outside.w - inside.w), inside.near_side + t * (outside.near_side - inside.near_side)};
+          inside.w + t * (outside.w - inside.w),
+          inside.near_side + t * (outside.near_side - inside.near_side)};
 }
 
 void append(ClippedPolygon& polygon, const ClipVertex& vertex, int corner) {

@@ -34,7 +34,8 @@ using RasteriseVisibility = void (*)(const TileTask& task, float* depth, Triangl
 RasteriseVisibility rasterise_visibility_for(InstructionSet set);
 
 /// Appends every sample of blended triangles that lies nearer than `depth`, in drawing order.
-using RasteriseFragments = void (*)(const TileTask& task, const float* depth, std::vector<Fragment>& fragments);
+using RasteriseFragments = void (*)(const TileTask& task, const float* depth,
+                                    std::vector<Fragment>& fragments);
 RasteriseFragments rasterise_fragments_for(InstructionSet set);
 
 }  // namespace laterna::raster

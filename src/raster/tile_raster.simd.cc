@@ -12,6 +12,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/tile_raster.simd.cc"
 #include "base/simd.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -199,16 +200,20 @@ class TileRaster {
 
  private:
   // Whether the alpha cut must be asked about this triangle.
-  [[nodiscard]] bool IsCut(const BinnedTriangle& t) const { return (t.kind & kMasked) != 0 && task_.cut != nullptr; }
+  [[nodiscard]] bool IsCut(const BinnedTriangle& t) const {
+    return (t.kind & kMasked) != 0 && task_.cut != nullptr;
+  }
 
   void DrawSmall(const BinnedTriangle& t) {
     const FloatTag d;
     // First and last pixel of the bounding box whose sample may be covered, within the tile.
     const auto first = [](const std::int32_t* v, int offset, int tile) {
-      return std::max(((std::min({v[0], v[1], v[2]}) + kSubpixels / 2 - 1 - offset) >> kSubpixelBits) - tile, 0);
+      return std::max(((std::min({v[0], v[1], v[2]}) + kSubpixels / 2 - 1 - offset) >> kSubpixelBits) - tile,
+                      0);
     };
     const auto last = [](const std::int32_t* v, int offset, int tile) {
-      return std::min(((std::max({v[0], v[1], v[2]}) - kSubpixels / 2 - offset) >> kSubpixelBits) - tile, kTileSide - 1);
+      return std::min(((std::max({v[0], v[1], v[2]}) - kSubpixels / 2 - offset) >> kSubpixelBits) - tile,
+                      kTileSide - 1);
     };
     const int x0 = first(t.x, task_.offset_x, tile_x_), x1 = last(t.x, task_.offset_x, tile_x_);
     const int y0 = first(t.y, task_.offset_y, tile_y_), y1 = last(t.y, task_.offset_y, tile_y_);
@@ -221,8 +226,8 @@ class TileRaster {
     for (std::size_t k = 0; k < kVectors; ++k) {
       const auto lane_x = hn::Load(d, kLaneX + k * kLanes), lane_y = hn::Load(d, kLaneY + k * kLanes);
       for (int i = 0; i < 3; ++i) {
-        lane_e[i][k] =
-            hn::Set(d, static_cast<float>(edges[i].a)) * lane_x + hn::Set(d, static_cast<float>(edges[i].b)) * lane_y;
+        lane_e[i][k] = hn::Set(d, static_cast<float>(edges[i].a)) * lane_x +
+                       hn::Set(d, static_cast<float>(edges[i].b)) * lane_y;
       }
       lane_q[k] = hn::Set(d, t.q_dx) * lane_x + hn::Set(d, t.q_dy) * lane_y;
     }
@@ -234,17 +239,21 @@ class TileRaster {
         // Below 2²⁴ in magnitude for a small triangle near its bounding box: exact in float.
         float e[3];
         for (int i = 0; i < 3; ++i) {
-          e[i] = static_cast<float>(std::int64_t{edges[i].a} * (tile_x_ + bx) + std::int64_t{edges[i].b} * (tile_y_ + by) +
-                                    edges[i].c);
+          e[i] = static_cast<float>(std::int64_t{edges[i].a} * (tile_x_ + bx) +
+                                    std::int64_t{edges[i].b} * (tile_y_ + by) + edges[i].c);
         }
-        const float q = t.base_q + t.q_dx * (static_cast<float>(tile_x_ + bx) + static_cast<float>(sample_x_) - t.base_x) +
-                        t.q_dy * (static_cast<float>(tile_y_ + by) + static_cast<float>(sample_y_) - t.base_y);
+        const float q =
+            t.base_q +
+            t.q_dx * (static_cast<float>(tile_x_ + bx) + static_cast<float>(sample_x_) - t.base_x) +
+            t.q_dy * (static_cast<float>(tile_y_ + by) + static_cast<float>(sample_y_) - t.base_y);
         const auto inside = [&](std::size_t k) HWY_ATTR {
-          const auto lowest = hn::Min(hn::Min(hn::Set(d, e[0]) + lane_e[0][k], hn::Set(d, e[1]) + lane_e[1][k]),
-                                      hn::Set(d, e[2]) + lane_e[2][k]);
+          const auto lowest =
+              hn::Min(hn::Min(hn::Set(d, e[0]) + lane_e[0][k], hn::Set(d, e[1]) + lane_e[1][k]),
+                      hn::Set(d, e[2]) + lane_e[2][k]);
           return lowest >= hn::Zero(d);
         };
-        const auto depth = [&](std::size_t k) HWY_ATTR { return hn::Min(hn::Max(hn::Set(d, q) + lane_q[k], q_min), q_max); };
+        const auto depth = [&](std::size_t k)
+                               HWY_ATTR { return hn::Min(hn::Max(hn::Set(d, q) + lane_q[k], q_min), q_max); };
         VisitBlock(BlockStart(bx, by), bx, by, t.id, is_cut, inside, depth);
       }
     }
@@ -264,8 +273,10 @@ class TileRaster {
       w.a[i] = edges[i].a;
       w.b[i] = edges[i].b;
       // Beyond ±2³⁰ the sign is the same all over the tile, so it may be held there.
-      const std::int64_t e = std::int64_t{edges[i].a} * tile_x_ + std::int64_t{edges[i].b} * tile_y_ + edges[i].c;
-      w.e[i] = static_cast<std::int32_t>(std::clamp<std::int64_t>(e, -(std::int64_t{1} << 30), std::int64_t{1} << 30));
+      const std::int64_t e =
+          std::int64_t{edges[i].a} * tile_x_ + std::int64_t{edges[i].b} * tile_y_ + edges[i].c;
+      w.e[i] = static_cast<std::int32_t>(
+          std::clamp<std::int64_t>(e, -(std::int64_t{1} << 30), std::int64_t{1} << 30));
       for (std::size_t k = 0; k < kVectors; ++k) {
         w.lane[i][k] = hn::Set(di, w.a[i]) * hn::Load(di, kLaneXInt + k * kLanes) +
                        hn::Set(di, w.b[i]) * hn::Load(di, kLaneYInt + k * kLanes);
@@ -275,7 +286,8 @@ class TileRaster {
     const Cells cells = FindCells<4>(w, w.e, 7U);
     for (std::uint32_t mask = cells.touched; mask != 0; mask &= mask - 1) {
       const int cell = __builtin_ctz(mask);
-      const std::uint32_t crossing = (cells.crossing[0] >> cell & 1U) | (cells.crossing[1] >> cell & 1U) << 1U |
+      const std::uint32_t crossing = (cells.crossing[0] >> cell & 1U) |
+                                     (cells.crossing[1] >> cell & 1U) << 1U |
                                      (cells.crossing[2] >> cell & 1U) << 2U;
       DrawCell(t, w, depth, cell, crossing);
     }
@@ -316,8 +328,10 @@ class TileRaster {
     WideDepth(const BinnedTriangle& t, const WidePlane& p) : plane(p), q_min(t.q_min), q_max(t.q_max) {
       const DoubleTag dd;
       alignas(64) double offsets[kBlockPixels];
-      for (std::size_t i = 0; i < kBlockPixels; ++i) offsets[i] = p.q_dx * kLaneXInt[i] + p.q_dy * kLaneYInt[i];
-      for (std::size_t k = 0; k < kBlockPixels / hn::Lanes(dd); ++k) lane[k] = hn::Load(dd, offsets + k * hn::Lanes(dd));
+      for (std::size_t i = 0; i < kBlockPixels; ++i)
+        offsets[i] = p.q_dx * kLaneXInt[i] + p.q_dy * kLaneYInt[i];
+      for (std::size_t k = 0; k < kBlockPixels / hn::Lanes(dd); ++k)
+        lane[k] = hn::Load(dd, offsets + k * hn::Lanes(dd));
     }
     [[nodiscard]] double At(double x, double y) const { return plane.q_0 + plane.q_dx * x + plane.q_dy * y; }
     // The block whose first sample is at (x, y).
@@ -335,7 +349,8 @@ class TileRaster {
   };
 
   // Draws what the triangle covers of a 16 × 16 cell. `crossing`: edges that may pass through it, a bit each.
-  void DrawCell(const BinnedTriangle& t, const WideEdges& w, const WideDepth& depth, int cell, std::uint32_t crossing) {
+  void DrawCell(const BinnedTriangle& t, const WideEdges& w, const WideDepth& depth, int cell,
+                std::uint32_t crossing) {
     const int cell_x = (cell & 3) * 16;
     const int cell_y = (cell >> 2) * 16;
     const auto [nearest, farthest] = DepthRange(depth, cell_x, cell_y);
@@ -370,16 +385,15 @@ class TileRaster {
             static_cast<float>(std::clamp(low, q_min, q_max) * (1 - kSlack))};
   }
 
-  HWY_INLINE void DrawWideBlock(const BinnedTriangle& t, const WideEdges& w, const WideDepth& wide_depth, int bx, int by,
-                                std::uint32_t crossed, bool is_cut) {
+  HWY_INLINE void DrawWideBlock(const BinnedTriangle& t, const WideEdges& w, const WideDepth& wide_depth,
+                                int bx, int by, std::uint32_t crossed, bool is_cut) {
     const FloatTag d;
     const IntTag di;
     alignas(64) float q[kBlockPixels];
     wide_depth.Evaluate(tile_x_ + bx + sample_x_, tile_y_ + by + sample_y_, q);
     const auto q_min = hn::Set(d, t.q_min), q_max = hn::Set(d, t.q_max);
-    const auto depth = [&](std::size_t k) HWY_ATTR {
-      return hn::Min(hn::Max(hn::Load(d, q + k * kLanes), q_min), q_max);
-    };
+    const auto depth = [&](std::size_t k)
+                           HWY_ATTR { return hn::Min(hn::Max(hn::Load(d, q + k * kLanes), q_min), q_max); };
     std::int32_t e[3];
     for (int i = 0; i < 3; ++i) e[i] = w.e[i] + w.a[i] * bx + w.b[i] * by;
     const auto inside = [&](std::size_t k) HWY_ATTR {
@@ -397,8 +411,8 @@ class TileRaster {
   }
 
   template <class Inside, class Depth>
-  HWY_INLINE void VisitBlock(std::size_t block, int bx, int by, TriangleId id, bool is_cut, const Inside& inside,
-                             const Depth& depth) {
+  HWY_INLINE void VisitBlock(std::size_t block, int bx, int by, TriangleId id, bool is_cut,
+                             const Inside& inside, const Depth& depth) {
     const FloatTag d;
     if (HWY_UNLIKELY(is_cut)) {
       VisitCutBlock(block, bx, by, id, inside, depth);
@@ -425,19 +439,21 @@ class TileRaster {
     }
     mask = sink_.Passing(block, q, mask);
     if (mask == 0) return;
-    const BlockSamples samples = {static_cast<float>(tile_x_ + bx + sample_x_), static_cast<float>(tile_y_ + by + sample_y_),
-                                  q};
+    const BlockSamples samples = {static_cast<float>(tile_x_ + bx + sample_x_),
+                                  static_cast<float>(tile_y_ + by + sample_y_), q};
     sink_.Write(block, q, task_.cut->keep(id, samples, mask));
   }
 
   const TileTask& task_;
   Sink sink_;
-  int tile_x_, tile_y_;          // first pixel of the tile, from the view's origin
-  double sample_x_, sample_y_;   // of the sample within its pixel
-  float covered_[16];            // every sample of the 16 × 16 cell is at least this near
+  int tile_x_, tile_y_;         // first pixel of the tile, from the view's origin
+  double sample_x_, sample_y_;  // of the sample within its pixel
+  float covered_[16];           // every sample of the 16 × 16 cell is at least this near
 };
 
-void rasterise_depth(const TileTask& task, float* depth) { TileRaster<DepthSink>(task, DepthSink(depth)).DrawAll(); }
+void rasterise_depth(const TileTask& task, float* depth) {
+  TileRaster<DepthSink>(task, DepthSink(depth)).DrawAll();
+}
 
 void rasterise_visibility(const TileTask& task, float* depth, TriangleId* ids) {
   TileRaster<VisibilitySink>(task, VisibilitySink(depth, ids)).DrawAll();

@@ -111,7 +111,8 @@ class TileRejector {
 
   [[nodiscard]] bool may_touch(int tile_x, int tile_y) const {
     for (int i = 0; i < 3; ++i) {
-      if (offset_[i] + slope_x_[i] * (tile_x * kTileSide) + slope_y_[i] * (tile_y * kTileSide) < 0) return false;
+      if (offset_[i] + slope_x_[i] * (tile_x * kTileSide) + slope_y_[i] * (tile_y * kTileSide) < 0)
+        return false;
     }
     return true;
   }
@@ -153,7 +154,8 @@ void sort_by_tile(Batch& batch, const RasterView& view, const BinOptions& option
   };
   batch.offsets.assign(static_cast<std::size_t>(all.width() * all.height()) + 1, 0);
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
-    for_each_tile(batch.triangles[i], view, touched[i], [&](int x, int y) { ++batch.offsets[tile_index(x, y) + 1]; });
+    for_each_tile(batch.triangles[i], view, touched[i],
+                  [&](int x, int y) { ++batch.offsets[tile_index(x, y) + 1]; });
   }
   for (std::size_t i = 1; i < batch.offsets.size(); ++i) batch.offsets[i] += batch.offsets[i - 1];
   batch.entries.resize(batch.offsets.back());
@@ -193,7 +195,8 @@ std::vector<OrderedCluster> visible_clusters(const RasterView& view, std::span<c
 }  // namespace
 
 std::span<const std::uint32_t> Batch::in_tile(int tile_x, int tile_y) const {
-  if (tile_x < tiles.x_begin || tile_x >= tiles.x_end || tile_y < tiles.y_begin || tile_y >= tiles.y_end) return {};
+  if (tile_x < tiles.x_begin || tile_x >= tiles.x_end || tile_y < tiles.y_begin || tile_y >= tiles.y_end)
+    return {};
   const auto i = static_cast<std::size_t>((tile_y - tiles.y_begin) * tiles.width() + tile_x - tiles.x_begin);
   return {entries.data() + offsets[i], offsets[i + 1] - offsets[i]};
 }
@@ -233,7 +236,8 @@ BinStatistics TriangleBins::statistics() const {
 std::size_t TriangleBins::memory_bytes() const {
   std::size_t bytes = 0;
   for (const Batch& batch : batches_) {
-    bytes += batch.triangles.capacity() * sizeof(BinnedTriangle) + batch.planes.capacity() * sizeof(WidePlane) +
+    bytes += batch.triangles.capacity() * sizeof(BinnedTriangle) +
+             batch.planes.capacity() * sizeof(WidePlane) +
              (batch.offsets.capacity() + batch.entries.capacity()) * sizeof(std::uint32_t);
   }
   return bytes;

@@ -51,10 +51,10 @@ enum TriangleKind : std::uint32_t {
 
 /// Output of set-up; one cache line. Corners are ordered so that the area is positive (clockwise on screen).
 struct alignas(kCacheLine) BinnedTriangle {
-  std::int32_t x[3], y[3];  // snapped, relative to the view's origin
+  std::int32_t x[3], y[3];       // snapped, relative to the view's origin
   float base_x, base_y, base_q;  // reversed depth q(x, y) = base_q + q_dx (x − base_x) + q_dy (y − base_y),
   float q_dx, q_dy;              // unless kWide
-  float q_min, q_max;            // of the corners: snapping may let a covered centre lie just outside the true triangle
+  float q_min, q_max;  // of the corners: snapping may let a covered centre lie just outside the true triangle
   TriangleId id;
   std::uint32_t kind;
   std::uint32_t plane;  // kWide: index into Batch::planes
@@ -110,7 +110,8 @@ struct Batch {
 class TriangleBins {
  public:
   /// Culls, transforms, clips, sets up and bins. What comes out depends on neither threads nor instruction set.
-  void fill(const RasterView& view, const TriangleClusters& geometry, const BinOptions& options, const TaskPool& pool);
+  void fill(const RasterView& view, const TriangleClusters& geometry, const BinOptions& options,
+            const TaskPool& pool);
 
   [[nodiscard]] std::span<const Batch> batches() const { return {batches_.data(), used_}; }
   [[nodiscard]] BinStatistics statistics() const;

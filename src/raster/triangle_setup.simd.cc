@@ -5,6 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/triangle_setup.simd.cc"
 #include "base/simd.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -37,8 +38,8 @@ HWY_INLINE FloatVector Dot(FloatTag d, const float* row, FloatVector x, FloatVec
   return hn::Set(d, row[0]) * x + hn::Set(d, row[1]) * y + hn::Set(d, row[2]) * z;
 }
 
-HWY_INLINE void TransformVertices(const SetupView& setup, const TriangleClusters& geometry, const Cluster& cluster,
-                                  ScreenVertices& screen) {
+HWY_INLINE void TransformVertices(const SetupView& setup, const TriangleClusters& geometry,
+                                  const Cluster& cluster, ScreenVertices& screen) {
   const FloatTag d;
   const bool is_orthographic = setup.view->is_orthographic;
   for (std::size_t i = 0; i < cluster.vertex_count; i += kLanes) {
@@ -73,7 +74,8 @@ std::uint32_t KindOf(const Cluster& cluster, const BinOptions& options) {
 struct Culling {
   bool front, back;
   Culling(const Cluster& cluster, CullFaces cull)
-      : front(cull == CullFaces::front), back(cull == CullFaces::single_sided && (cluster.flags & kDoubleSided) == 0) {}
+      : front(cull == CullFaces::front),
+        back(cull == CullFaces::single_sided && (cluster.flags & kDoubleSided) == 0) {}
 };
 
 // ---------------------------------------------------------------------------------------------- one by one
@@ -90,12 +92,14 @@ WidePlane PlaneThrough(const std::array<ClipVertex, 3>& v, const double* r) {
   if (determinant == 0) return {r[0] / v[0].w, 0, 0};
   const double inverse = 1 / determinant;
   const double q_dx = (r[0] * c0 + r[1] * c1 + r[2] * c2) * inverse;
-  const double q_dy = (r[0] * (v[2].x * v[1].w - v[1].x * v[2].w) + r[1] * (v[0].x * v[2].w - v[2].x * v[0].w) +
-                       r[2] * (v[1].x * v[0].w - v[0].x * v[1].w)) *
-                      inverse;
-  const double q_0 = (r[0] * (v[1].x * v[2].y - v[2].x * v[1].y) + r[1] * (v[2].x * v[0].y - v[0].x * v[2].y) +
-                      r[2] * (v[0].x * v[1].y - v[1].x * v[0].y)) *
-                     inverse;
+  const double q_dy =
+      (r[0] * (v[2].x * v[1].w - v[1].x * v[2].w) + r[1] * (v[0].x * v[2].w - v[2].x * v[0].w) +
+       r[2] * (v[1].x * v[0].w - v[0].x * v[1].w)) *
+      inverse;
+  const double q_0 =
+      (r[0] * (v[1].x * v[2].y - v[2].x * v[1].y) + r[1] * (v[2].x * v[0].y - v[0].x * v[2].y) +
+       r[2] * (v[0].x * v[1].y - v[1].x * v[0].y)) *
+      inverse;
   if (!(std::isfinite(q_dx) && std::isfinite(q_dy) && std::isfinite(q_0))) return {r[0] / v[0].w, 0, 0};
   return {q_0, q_dx, q_dy};
 }
@@ -105,7 +109,8 @@ ClipVertex ClipPosition(const RasterView& view, double x, double y, double z) {
   const auto dot = [&](glm::dvec3 row) { return row.x * p.x + row.y * p.y + row.z * p.z; };
   const double w = dot(view.w_row);
   if (view.is_orthographic) {
-    return {dot(view.x_row) + view.x_add, dot(view.y_row) + view.y_add, 1, view.reversed_near - (w + view.w_add)};
+    return {dot(view.x_row) + view.x_add, dot(view.y_row) + view.y_add, 1,
+            view.reversed_near - (w + view.w_add)};
   }
   return {dot(view.x_row), dot(view.y_row), w, w - view.view.projection.near};
 }
@@ -130,10 +135,10 @@ bool TouchesPixels(const Rect& pixels, const RasterView& view, int reach, const 
   return x0 <= x1 && y0 <= y1;
 }
 
-void EmitWide(const SnappedVertex* v, float q_min, float q_max, TriangleId id, std::uint32_t kind, std::uint32_t plane,
-              const Culling& culling, Batch& batch) {
-  const std::int64_t area = std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) -
-                            std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
+void EmitWide(const SnappedVertex* v, float q_min, float q_max, TriangleId id, std::uint32_t kind,
+              std::uint32_t plane, const Culling& culling, Batch& batch) {
+  const std::int64_t area =
+      std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) - std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
   if (area == 0 || (area < 0 ? culling.front : culling.back)) return;
   const int b = area > 0 ? 1 : 2;
   const int c = 3 - b;
@@ -191,7 +196,8 @@ void SetUpWide(const SetupTask& task, const ScreenVertices& screen, std::uint32_
   for (std::size_t i = 1; i + 1 < polygon.count; ++i) {
     const SnappedVertex fan[3] = {snapped[0], snapped[i], snapped[i + 1]};
     if (!TouchesPixels(task.options->pixels, view, task.options->sample_reach, fan)) continue;
-    EmitWide(fan, static_cast<float>(q_min), static_cast<float>(q_max), id, kind, plane_index, culling, batch);
+    EmitWide(fan, static_cast<float>(q_min), static_cast<float>(q_max), id, kind, plane_index, culling,
+             batch);
   }
   if (batch.triangles.size() > before) batch.planes.push_back(plane);
 }
@@ -204,8 +210,8 @@ struct SmallFields {
   alignas(64) float base_x[16], base_y[16], base_q[16], q_dx[16], q_dy[16], q_min[16], q_max[16];
 };
 
-HWY_INLINE void EmitSmall(const SmallFields& fields, std::uint64_t mask, TriangleId first_id, std::uint32_t kind,
-                          Batch& batch) {
+HWY_INLINE void EmitSmall(const SmallFields& fields, std::uint64_t mask, TriangleId first_id,
+                          std::uint32_t kind, Batch& batch) {
   for (; mask != 0; mask &= mask - 1) {
     const auto i = static_cast<std::size_t>(__builtin_ctzll(mask));
     BinnedTriangle& t = batch.triangles.emplace_back();
@@ -259,7 +265,8 @@ void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& bat
 
   for (std::uint32_t first = 0; first < cluster.triangle_count; first += kLanes) {
     // The array is padded with degenerate triangles to a whole cluster.
-    const auto packed = hn::Load(di, reinterpret_cast<const std::int32_t*>(task.geometry->corners + first_id + first));
+    const auto packed =
+        hn::Load(di, reinterpret_cast<const std::int32_t*>(task.geometry->corners + first_id + first));
     const auto a = hn::And(packed, byte);
     const auto b = hn::And(hn::ShiftRight<8>(packed), byte);
     const auto c = hn::And(hn::ShiftRight<16>(packed), byte);

@@ -43,10 +43,12 @@ std::string names_of(const frame::Frame& frame) {
 
 Result<View> camera_view(const frame::Frame& frame, const std::string& name, int width, int height) {
   for (const frame::PlacedCamera& placed : frame.cameras) {
-    if (name.empty() || placed.camera->name == name) return View{placed.pose, fitted(*placed.camera, width, height)};
+    if (name.empty() || placed.camera->name == name)
+      return View{placed.pose, fitted(*placed.camera, width, height)};
   }
   return tl::unexpected(
-      Error(Failure::bad_usage, Diagnostic{{}, {}, "the scene has no camera \"" + name + "\": " + names_of(frame)}));
+      Error(Failure::bad_usage,
+            Diagnostic{{}, {}, "the scene has no camera \"" + name + "\": " + names_of(frame)}));
 }
 
 View overview(const frame::Frame& frame, int width, int height) {
@@ -62,7 +64,8 @@ View overview(const frame::Frame& frame, int width, int height) {
   const glm::dvec3 toward_eye = glm::normalize(glm::dvec3(0.55, 0.35, 1.0));
   View view;
   view.pose = *Pose::look_at(centre + toward_eye * distance, centre, glm::dvec3(0, 1, 0));
-  view.projection = Projection::perspective(yfov, aspect, distance / 1000, std::numeric_limits<double>::infinity());
+  view.projection =
+      Projection::perspective(yfov, aspect, distance / 1000, std::numeric_limits<double>::infinity());
   return view;
 }
 

@@ -7,22 +7,27 @@ namespace laterna {
 namespace {
 
 constexpr std::array<LayerDescription, 10> kLayers = {{
-    {Layer::light, "light", "ambient.R/G/B, light.<name>.R/G/B", "ambient and each light by itself; their sum is the picture"},
-    {Layer::visibility, "visibility", "visibility.<name>", "fraction of each light that arrives, 0 in shadow"},
+    {Layer::light, "light", "ambient.R/G/B, light.<name>.R/G/B",
+     "ambient and each light by itself; their sum is the picture"},
+    {Layer::visibility, "visibility", "visibility.<name>",
+     "fraction of each light that arrives, 0 in shadow"},
     {Layer::uv, "uv", "uv.<name>.u/.v", "slide coordinates of each projector, NaN outside its frame"},
     {Layer::lux, "lux", "lux.Y", "illuminance of the surface in lux"},
     {Layer::depth, "depth", "Z", "distance along the camera's axis in metres, infinity where nothing is"},
     {Layer::position, "position", "P.X/Y/Z", "world position in metres"},
     {Layer::normal, "normal", "N.X/Y/Z", "shading normal in world space"},
     {Layer::albedo, "albedo", "albedo.R/G/B", "base colour, linear"},
-    {Layer::object, "object", "id.object", "number of the object, -1 where nothing is; names in the metadata"},
+    {Layer::object, "object", "id.object",
+     "number of the object, -1 where nothing is; names in the metadata"},
     {Layer::passes, "passes", "pass.*", "the frame buffer after each pass of --passes multi"},
 }};
 
 constexpr std::array<TechniqueDescription, 3> kTechniques = {{
     {ShadowTechnique::none, "none", "light passes through everything"},
-    {ShadowTechnique::map, "map", "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
-    {ShadowTechnique::raytraced, "raytraced", "hard shadows by rays: slow, exact, the reference for the others"},
+    {ShadowTechnique::map, "map",
+     "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
+    {ShadowTechnique::raytraced, "raytraced",
+     "hard shadows by rays: slow, exact, the reference for the others"},
 }};
 
 }  // namespace
@@ -81,7 +86,8 @@ void add_lights(ChannelList& list, const RenderSettings& settings, const frame::
   }
   if (has(settings, Layer::visibility)) {
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-      list.add("visibility." + frame.lights[i].light->name, [i](const TileResult& t) { return &t.visibility[i]; });
+      list.add("visibility." + frame.lights[i].light->name,
+               [i](const TileResult& t) { return &t.visibility[i]; });
     }
   }
   if (!has(settings, Layer::uv)) return;
@@ -134,8 +140,8 @@ shade::WantedLayers wanted_layers(const RenderSettings& settings) {
   wanted.visibility = has(settings, Layer::visibility) || wanted.passes;
   wanted.slide_uv = has(settings, Layer::uv);
   wanted.lux = has(settings, Layer::lux);
-  wanted.geometry = has(settings, Layer::depth) || has(settings, Layer::position) || has(settings, Layer::normal) ||
-                    has(settings, Layer::object) || wanted.passes;
+  wanted.geometry = has(settings, Layer::depth) || has(settings, Layer::position) ||
+                    has(settings, Layer::normal) || has(settings, Layer::object) || wanted.passes;
   wanted.albedo = has(settings, Layer::albedo);
   return wanted;
 }

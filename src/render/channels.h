@@ -12,7 +12,8 @@
 namespace laterna::render {
 
 /// Finds a channel's plane in a tile; object ids are converted into `buffer`.
-using ChannelPlane = std::function<const shade::TilePlane*(const shade::TileResult& tile, shade::TilePlane& buffer)>;
+using ChannelPlane =
+    std::function<const shade::TilePlane*(const shade::TileResult& tile, shade::TilePlane& buffer)>;
 
 struct PictureChannel {
   std::string name;

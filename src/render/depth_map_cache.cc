@@ -13,20 +13,22 @@ bool same_view(const light::ShadowView& a, const light::ShadowView& b) {
   const Projection& q = b.view.projection;
   return a.width == b.width && a.height == b.height && a.view.pose.position_ws == b.view.pose.position_ws &&
          a.view.pose.world_from_view_rotation == b.view.pose.world_from_view_rotation &&
-         p.is_orthographic == q.is_orthographic && p.left == q.left && p.right == q.right && p.bottom == q.bottom &&
-         p.top == q.top && p.near == q.near && p.far == q.far;
+         p.is_orthographic == q.is_orthographic && p.left == q.left && p.right == q.right &&
+         p.bottom == q.bottom && p.top == q.top && p.near == q.near && p.far == q.far;
 }
 
 }  // namespace
 
 bool DepthMapKey::operator==(const DepthMapKey& other) const {
-  return faces == other.faces && keeps_triangles == other.keeps_triangles && casters_revision == other.casters_revision &&
+  return faces == other.faces && keeps_triangles == other.keeps_triangles &&
+         casters_revision == other.casters_revision &&
          std::equal(views.begin(), views.end(), other.views.begin(), other.views.end(), same_view);
 }
 
-shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view, CasterFaces faces,
-                                bool keeps_triangles) {
-  shadow::DepthMap map(raster::RasterView(shadow_view.view, shadow_view.width, shadow_view.height), keeps_triangles);
+shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
+                                CasterFaces faces, bool keeps_triangles) {
+  shadow::DepthMap map(raster::RasterView(shadow_view.view, shadow_view.width, shadow_view.height),
+                       keeps_triangles);
   const raster::RasterView& view = map.view();
   raster::BinOptions options;
   options.cull = faces == CasterFaces::back_only ? raster::CullFaces::front : raster::CullFaces::none;
@@ -37,9 +39,11 @@ shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowV
   const auto bins = context.bins.take();
   bins->fill(view, context.frame.geometry(), options, context.pool);
 
-  const shade::SurfaceCut cut({&context.frame, &view, Interpolation::perspective, 1}, true, context.instruction_set);
+  const shade::SurfaceCut cut({&context.frame, &view, Interpolation::perspective, 1}, true,
+                              context.instruction_set);
   const raster::RasteriseDepth rasterise_depth = raster::rasterise_depth_for(context.instruction_set);
-  const raster::RasteriseVisibility rasterise_visibility = raster::rasterise_visibility_for(context.instruction_set);
+  const raster::RasteriseVisibility rasterise_visibility =
+      raster::rasterise_visibility_for(context.instruction_set);
   const auto tiles = static_cast<std::size_t>(map.tiles_x() * map.tiles_y());
   context.pool.for_each(tiles, [&](std::size_t i, int) {
     const int x = static_cast<int>(i) % map.tiles_x();
@@ -58,15 +62,16 @@ shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowV
   return map;
 }
 
-DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& key, const DrawContext& context,
-                                          bool anew) {
+DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& key,
+                                         const DrawContext& context, bool anew) {
   const std::lock_guard lock(mutex_);
   if (entries_.size() <= light) entries_.resize(light + 1);
   Entry& entry = entries_[light];
   if (!anew && !entry.maps.empty() && entry.key == key) return {entry.maps, 0};
   entry.maps.clear();
   for (const light::ShadowView& view : key.views) {
-    entry.maps.push_back(std::make_shared<const shadow::DepthMap>(draw_depth_map(context, view, key.faces, key.keeps_triangles)));
+    entry.maps.push_back(std::make_shared<const shadow::DepthMap>(
+        draw_depth_map(context, view, key.faces, key.keeps_triangles)));
   }
   entry.key = key;
   return {entry.maps, static_cast<int>(entry.maps.size())};

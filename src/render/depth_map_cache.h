@@ -31,8 +31,8 @@ struct DrawContext {
 };
 
 /// One depth map: a pass that touches nothing but positions, and alpha where a material is cut out (row 76).
-shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view, CasterFaces faces,
-                                bool keeps_triangles);
+shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
+                                CasterFaces faces, bool keeps_triangles);
 
 class DepthMapCache {
  public:

@@ -9,7 +9,8 @@ namespace {
 
 template <class Description, class Value>
 std::string_view name_in(std::span<const Description> all, Value Description::*member, Value value) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Description& d) { return d.*member == value; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Description& d) { return d.*member == value; });
   return found == all.end() ? std::string_view() : found->name;
 }
 
@@ -28,9 +29,12 @@ std::string quoted(const std::string& text) {
 
 std::string_view shading_name(ShadingModel model) {
   switch (model) {
-    case ShadingModel::papers: return "papers";
-    case ShadingModel::phong: return "phong";
-    case ShadingModel::pbr: break;
+    case ShadingModel::papers:
+      return "papers";
+    case ShadingModel::phong:
+      return "phong";
+    case ShadingModel::pbr:
+      break;
   }
   return "pbr";
 }
@@ -38,14 +42,16 @@ std::string_view shading_name(ShadingModel model) {
 std::string matrix_text(const glm::dmat4& m) {
   std::string text;
   for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) text += fmt::format("{}{}", text.empty() ? "" : " ", m[column][row]);
+    for (int column = 0; column < 4; ++column)
+      text += fmt::format("{}{}", text.empty() ? "" : " ", m[column][row]);
   }
   return text;
 }
 
 }  // namespace
 
-std::map<std::string, std::string> describe(const RenderSettings& settings, const View& view, const frame::Frame& frame) {
+std::map<std::string, std::string> describe(const RenderSettings& settings, const View& view,
+                                            const frame::Frame& frame) {
   std::map<std::string, std::string> all;
   all["laterna.samples"] = std::to_string(settings.samples);
   all["laterna.shading"] = shading_name(settings.shading);

@@ -9,6 +9,7 @@
 
 namespace laterna::render {
 
-std::map<std::string, std::string> describe(const RenderSettings& settings, const View& view, const frame::Frame& frame);
+std::map<std::string, std::string> describe(const RenderSettings& settings, const View& view,
+                                            const frame::Frame& frame);
 
 }  // namespace laterna::render

@@ -40,9 +40,11 @@ Result<PictureWriter> PictureWriter::create(const RenderSettings& settings, cons
   }
   const std::vector<PictureChannel> channels = picture_channels(settings, frame);
   for (const ChannelTarget& wanted : target.channels) {
-    const auto found = std::find_if(channels.begin(), channels.end(),
-                                    [&](const PictureChannel& channel) { return channel.name == wanted.name; });
-    if (found == channels.end()) return bad_target("these settings produce no channel \"" + wanted.name + "\"");
+    const auto found = std::find_if(channels.begin(), channels.end(), [&](const PictureChannel& channel) {
+      return channel.name == wanted.name;
+    });
+    if (found == channels.end())
+      return bad_target("these settings produce no channel \"" + wanted.name + "\"");
     if (wanted.pixels == nullptr || wanted.row_stride < width) {
       return bad_target("the target of channel \"" + wanted.name + "\" has no memory for a row");
     }
@@ -79,7 +81,8 @@ void PictureWriter::write_color8(int tile_x, int tile_y, const shade::TileResult
   float alpha[kTileSide];
   std::uint8_t codes[kTileSide];
   for (int y = 0; y < rows; ++y) {
-    std::uint8_t* out = color8_->pixels + static_cast<std::size_t>(tile_y * kTileSide + y) * color8_->row_stride +
+    std::uint8_t* out = color8_->pixels +
+                        static_cast<std::size_t>(tile_y * kTileSide + y) * color8_->row_stride +
                         static_cast<std::size_t>(x) * channels;
     if (channels == 4) read_row(tile.alpha, y, alpha);
     for (std::size_t c = 0; c < 3; ++c) {

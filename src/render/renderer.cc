@@ -31,7 +31,8 @@ constexpr std::size_t kBinMemory = std::size_t{512} << 20U;
 
 int band_count(const frame::Frame& frame, int tile_rows) {
   const std::size_t bytes = frame.triangle_count() * sizeof(raster::BinnedTriangle);
-  return static_cast<int>(std::clamp<std::size_t>((bytes + kBinMemory - 1) / kBinMemory, 1, static_cast<std::size_t>(tile_rows)));
+  return static_cast<int>(
+      std::clamp<std::size_t>((bytes + kBinMemory - 1) / kBinMemory, 1, static_cast<std::size_t>(tile_rows)));
 }
 
 tl::unexpected<Error> refuse(std::string message) {
@@ -42,7 +43,8 @@ constexpr float kPi32 = 3.14159265F;
 
 // A scene that brings no light of its own is shown by a sun over the viewer's shoulder.
 void add_default_light(Scene& scene) {
-  const bool has_light = std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.light >= 0; });
+  const bool has_light =
+      std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.light >= 0; });
   if (has_light || scene.ambient_is_set) return;
   Light sun;
   sun.name = "default sun";
@@ -56,7 +58,8 @@ void add_default_light(Scene& scene) {
   node.parent_from_node = pose.world_from_view();
   scene.nodes.push_back(node);
   scene.ambient = glm::vec3(0.25F);
-  scene.warnings.push_back({{}, {}, "the scene has no light: it is lit by a default sun and a little ambient light"});
+  scene.warnings.push_back(
+      {{}, {}, "the scene has no light: it is lit by a default sun and a little ambient light"});
 }
 
 class ProgressReport {
@@ -128,28 +131,35 @@ struct Renderer::Implementation {
     return rays;
   }
 
-  std::unique_ptr<shadow::ShadowTechnique> make_technique(const light::PlannedLight& planned, std::size_t index,
-                                                          const raster::RasterView::Ray& ray, const RenderSettings& settings,
+  std::unique_ptr<shadow::ShadowTechnique> make_technique(const light::PlannedLight& planned,
+                                                          std::size_t index,
+                                                          const raster::RasterView::Ray& ray,
+                                                          const RenderSettings& settings,
                                                           RenderStatistics& statistics) const {
     switch (planned.technique) {
-      case ShadowTechnique::none: return nullptr;
-      case ShadowTechnique::raytraced: return std::make_unique<shadow::RayTracedShadow>(planned, ray_scene());
-      case ShadowTechnique::map: break;
+      case ShadowTechnique::none:
+        return nullptr;
+      case ShadowTechnique::raytraced:
+        return std::make_unique<shadow::RayTracedShadow>(planned, ray_scene());
+      case ShadowTechnique::map:
+        break;
     }
     const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
                                      planned.settings.filter == ShadowFilter::refined, casters_revision};
-    const render::DepthMapCache::Found found = maps.find(index, key, draw_context(), !settings.keep_shadow_maps);
+    const render::DepthMapCache::Found found =
+        maps.find(index, key, draw_context(), !settings.keep_shadow_maps);
     statistics.maps_drawn += found.drawn;
     statistics.maps_kept += static_cast<int>(found.maps.size()) - found.drawn;
-    RenderStatistics::LightMemory memory = {planned.placed->light->name, static_cast<int>(found.maps.size()), 0};
+    RenderStatistics::LightMemory memory = {planned.placed->light->name, static_cast<int>(found.maps.size()),
+                                            0};
     for (const auto& map : found.maps) memory.bytes += map->memory_bytes();
     statistics.shadow_memory.push_back(memory);
     return std::make_unique<shadow::ShadowMap>(planned, found.maps, frame, ray, settings.samples, set);
   }
 
   // Everything the tiles share, with every shadow technique ready to answer.
-  shade::ShaderJob make_job(const raster::RasterView& view, const RenderSettings& settings, const light::LightPlan& plan,
-                            RenderStatistics& statistics) const {
+  shade::ShaderJob make_job(const raster::RasterView& view, const RenderSettings& settings,
+                            const light::LightPlan& plan, RenderStatistics& statistics) const {
     shade::ShaderJob job;
     job.frame = &frame;
     job.view = &view;
@@ -191,7 +201,8 @@ struct Renderer::Implementation {
   mutable std::shared_ptr<const trace::RayScene> rays;
 };
 
-Renderer::Renderer(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
+Renderer::Renderer(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -215,13 +226,16 @@ Result<View> Renderer::camera_view(const std::string& name, int width, int heigh
   return render::camera_view(implementation_->frame, name, width, height);
 }
 
-View Renderer::overview(int width, int height) const { return render::overview(implementation_->frame, width, height); }
+View Renderer::overview(int width, int height) const {
+  return render::overview(implementation_->frame, width, height);
+}
 
 Result<RenderStatistics> Renderer::render_into(const View& from, const RenderSettings& settings,
                                                const RenderTarget& target, const Progress& progress) const {
   const Implementation& self = *implementation_;
   const Clock::time_point start = Clock::now();
-  if (Result<void> checked = render::check_settings(settings, from); !checked) return tl::unexpected(checked.error());
+  if (Result<void> checked = render::check_settings(settings, from); !checked)
+    return tl::unexpected(checked.error());
   Result<render::PictureWriter> writer = render::PictureWriter::create(settings, target, self.frame);
   if (!writer) return tl::unexpected(std::move(writer.error()));
 
@@ -261,18 +275,20 @@ Result<RenderStatistics> Renderer::render_into(const View& from, const RenderSet
     statistics.bin_ms += milliseconds_since(bin_start);
 
     const Clock::time_point shade_start = Clock::now();
-    self.pool.for_each(static_cast<std::size_t>(tiles_x * (end_row - first_row)), [&](std::size_t i, int worker) {
-      if (report.is_cancelled()) return;
-      auto& shader = shaders[static_cast<std::size_t>(worker)];
-      if (shader == nullptr) shader = std::make_unique<shade::TileShader>(job);
-      const int x = static_cast<int>(i) % tiles_x;
-      const int y = first_row + static_cast<int>(i) / tiles_x;
-      writer->write(x, y, shader->shade(x, y));
-      report.step();
-    });
+    self.pool.for_each(static_cast<std::size_t>(tiles_x * (end_row - first_row)),
+                       [&](std::size_t i, int worker) {
+                         if (report.is_cancelled()) return;
+                         auto& shader = shaders[static_cast<std::size_t>(worker)];
+                         if (shader == nullptr) shader = std::make_unique<shade::TileShader>(job);
+                         const int x = static_cast<int>(i) % tiles_x;
+                         const int y = first_row + static_cast<int>(i) / tiles_x;
+                         writer->write(x, y, shader->shade(x, y));
+                         report.step();
+                       });
     statistics.shade_ms += milliseconds_since(shade_start);
   }
-  if (report.is_cancelled()) return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
+  if (report.is_cancelled())
+    return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
   statistics.total_ms = milliseconds_since(start);
   return statistics;
 }
@@ -285,9 +301,10 @@ std::vector<std::string> Renderer::channel_names(const RenderSettings& settings)
   return names;
 }
 
-Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& settings, const Progress& progress,
-                                      RenderStatistics* statistics) const {
-  if (Result<void> checked = render::check_settings(settings, view); !checked) return tl::unexpected(checked.error());
+Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& settings,
+                                      const Progress& progress, RenderStatistics* statistics) const {
+  if (Result<void> checked = render::check_settings(settings, view); !checked)
+    return tl::unexpected(checked.error());
   LayeredImage image;
   image.width = settings.width;
   image.height = settings.height;
@@ -296,7 +313,8 @@ Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& se
   for (const std::string& name : channel_names(settings)) {
     image.channels.push_back({name, std::vector<float>(stride * static_cast<std::size_t>(settings.height))});
   }
-  for (Channel& channel : image.channels) target.channels.push_back({channel.name, channel.values.data(), stride});
+  for (Channel& channel : image.channels)
+    target.channels.push_back({channel.name, channel.values.data(), stride});
   Result<RenderStatistics> done = render_into(view, settings, target, progress);
   if (!done) return tl::unexpected(std::move(done.error()));
   if (statistics != nullptr) *statistics = *done;
@@ -317,7 +335,8 @@ Result<void> Renderer::set_transform(int node, const glm::dmat4& parent_from_nod
     self.frame.place_lights_and_cameras(self.scene);
     return {};
   }
-  Result<void> built = faults.empty() ? self.rebuild() : tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+  Result<void> built =
+      faults.empty() ? self.rebuild() : tl::unexpected(Error(Failure::bad_input, std::move(faults)));
   if (!built) place = before;
   return built;
 }
@@ -333,7 +352,8 @@ Result<void> Renderer::set_light(int light, Light value) {
     std::swap(place, value);
     return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
   }
-  if (place.slide >= 0 && self.textures->find(place.slide, frame::slide_use(place)) == nullptr) return self.load();
+  if (place.slide >= 0 && self.textures->find(place.slide, frame::slide_use(place)) == nullptr)
+    return self.load();
   self.frame.place_lights_and_cameras(self.scene);
   return {};
 }
@@ -346,7 +366,8 @@ Result<light::PlannedLight> Renderer::Implementation::planned_light(const std::s
     if (planned.placed->light->name == name) return light::with_shadow_map(std::move(planned), frame);
     names += (names.empty() ? "\"" : ", \"") + planned.placed->light->name + "\"";
   }
-  return refuse("the scene has no light \"" + name + "\": " + (names.empty() ? "it has none" : "it has " + names));
+  return refuse("the scene has no light \"" + name +
+                "\": " + (names.empty() ? "it has none" : "it has " + names));
 }
 
 Result<View> Renderer::light_view(const std::string& name) const {
@@ -366,19 +387,22 @@ Result<light::ShadowView> Renderer::Implementation::shadow_view(const std::strin
   if (!planned) return tl::unexpected(planned.error());
   const int count = static_cast<int>(planned->shadow_views.size());
   if (face >= 0 && face < count) return planned->shadow_views[static_cast<std::size_t>(face)];
-  return refuse("light \"" + name + "\" has " + std::to_string(count) + " depth maps, counted from 0; there is no number " +
-                std::to_string(face));
+  return refuse("light \"" + name + "\" has " + std::to_string(count) +
+                " depth maps, counted from 0; there is no number " + std::to_string(face));
 }
 
 Result<View> Renderer::depth_map_view(const std::string& light, int face) const {
-  return implementation_->shadow_view(light, face).map([](const light::ShadowView& shadow) { return shadow.view; });
+  return implementation_->shadow_view(light, face).map([](const light::ShadowView& shadow) {
+    return shadow.view;
+  });
 }
 
 Result<LayeredImage> Renderer::depth_map(const std::string& light, int face) const {
   const Implementation& self = *implementation_;
   const Result<light::ShadowView> shadow_view = self.shadow_view(light, face);
   if (!shadow_view) return tl::unexpected(shadow_view.error());
-  const shadow::DepthMap map = render::draw_depth_map(self.draw_context(), *shadow_view, CasterFaces::both, false);
+  const shadow::DepthMap map =
+      render::draw_depth_map(self.draw_context(), *shadow_view, CasterFaces::both, false);
   LayeredImage image;
   image.width = map.width();
   image.height = map.height();

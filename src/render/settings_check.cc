@@ -25,14 +25,16 @@ Result<void> check_options(const RendererOptions& options) {
   if (std::find(known.begin(), known.end(), *options.instruction_set) != known.end()) return {};
   std::string names;
   for (const InstructionSet set : known) names += (names.empty() ? "" : ", ") + std::string(name_of(set));
-  return refuse("this machine or build has no " + std::string(name_of(*options.instruction_set)) + ": it has " + names);
+  return refuse("this machine or build has no " + std::string(name_of(*options.instruction_set)) +
+                ": it has " + names);
 }
 
 Result<void> check_settings(const RenderSettings& settings, const View& view) {
   for (const int side : {settings.width, settings.height}) {
     if (side < 1 || side > raster::kMaxRasterSide) {
-      return refuse("a picture's width and height must be from 1 to " + std::to_string(raster::kMaxRasterSide) +
-                    ", not " + std::to_string(settings.width) + "x" + std::to_string(settings.height));
+      return refuse("a picture's width and height must be from 1 to " +
+                    std::to_string(raster::kMaxRasterSide) + ", not " + std::to_string(settings.width) + "x" +
+                    std::to_string(settings.height));
     }
   }
   constexpr int kCounts[] = {1, 2, 4, 8, 16};
@@ -42,7 +44,8 @@ Result<void> check_settings(const RenderSettings& settings, const View& view) {
   if (settings.anisotropy < 1 || settings.anisotropy > 16) {
     return refuse("anisotropy must be from 1 to 16, not " + std::to_string(settings.anisotropy));
   }
-  if (const std::string fault = find_fault(view.projection); !fault.empty()) return refuse("the view: " + fault);
+  if (const std::string fault = find_fault(view.projection); !fault.empty())
+    return refuse("the view: " + fault);
   return {};
 }
 

@@ -51,7 +51,8 @@ class WatchedStream : public Assimp::IOStream {
   static constexpr std::size_t kCallsOfAnyFile = 4096;
 
   void count_call() {
-    if (calls_left_ == 0) throw std::runtime_error("the file ends too early, or its parser is caught in a loop");
+    if (calls_left_ == 0)
+      throw std::runtime_error("the file ends too early, or its parser is caught in a loop");
     --calls_left_;
   }
 
@@ -69,7 +70,8 @@ bool is_material_library(const std::filesystem::path& file) {
 
 Assimp::IOStream* AssimpFiles::Open(const char* file, const char* mode) {
   std::error_code ignored;
-  const bool is_readable = std::strchr(mode, 'w') == nullptr && std::filesystem::is_regular_file(file, ignored);
+  const bool is_readable =
+      std::strchr(mode, 'w') == nullptr && std::filesystem::is_regular_file(file, ignored);
   Result<std::vector<std::byte>> bytes =
       is_readable ? read_file(file) : tl::unexpected(Error(Failure::bad_input, Diagnostic{}));
   if (is_material_library(file)) {

@@ -227,7 +227,8 @@ std::optional<Accessors::Sparse> Accessors::parse_sparse(const JsonValue& value,
   sparse.value_offset = values.whole("byteOffset").value_or(0);
   if (faults_.error_count() != errors_before) return std::nullopt;
   const std::optional<ComponentType> type = parse_component_type(indices);
-  if (!has_indices || !has_values || !type || sparse.index_view < 0 || sparse.value_view < 0) return std::nullopt;
+  if (!has_indices || !has_values || !type || sparse.index_view < 0 || sparse.value_view < 0)
+    return std::nullopt;
   if (!is_index_type(*type)) {
     indices.error("componentType",
                   fmt::format("expected 5121, 5123 or 5125, got {}", static_cast<int>(*type)));

@@ -14,7 +14,8 @@ float at(const shadow::ProjectedRow& row, double x, double y, double q) {
   return static_cast<float>(row.at_0 + row.at_x * x + row.at_y * y + row.at_q * q);
 }
 
-std::optional<Corner> project(const BoundLight& light, const raster::RasterView& view, const glm::dvec3& p_ws) {
+std::optional<Corner> project(const BoundLight& light, const raster::RasterView& view,
+                              const glm::dvec3& p_ws) {
   const glm::dvec3 p = p_ws - view.eye_ws;
   const double w = glm::dot(view.w_row, p) + view.w_add;
   if (!view.is_orthographic && w < view.view.projection.near) return std::nullopt;
@@ -22,17 +23,21 @@ std::optional<Corner> project(const BoundLight& light, const raster::RasterView&
   const double x = (glm::dot(view.x_row, p) + view.x_add) / divisor;
   const double y = (glm::dot(view.y_row, p) + view.y_add) / divisor;
   const double q = view.is_orthographic ? w : 1 / w;
-  const shadow::ProjectedRow& divisor_row = light.is_orthographic ? light.homogeneous : light.slide_position.divisor;
+  const shadow::ProjectedRow& divisor_row =
+      light.is_orthographic ? light.homogeneous : light.slide_position.divisor;
   const double slide_w = at(divisor_row, x, y, q);
   if (slide_w <= 0) return std::nullopt;
-  return Corner{x, y, at(light.slide_position.x, x, y, q) / slide_w, at(light.slide_position.y, x, y, q) / slide_w};
+  return Corner{x, y, at(light.slide_position.x, x, y, q) / slide_w,
+                at(light.slide_position.y, x, y, q) / slide_w};
 }
 
-std::optional<std::array<Corner, 3>> project_triangle(const BoundLight& light, const PointSource& source, TriangleId id) {
+std::optional<std::array<Corner, 3>> project_triangle(const BoundLight& light, const PointSource& source,
+                                                      TriangleId id) {
   const TriangleClusters geometry = source.frame->geometry();
   std::array<Corner, 3> corners{};
   for (std::uint32_t i = 0; i < 3; ++i) {
-    const std::uint32_t v = geometry.clusters[cluster_of(id)].first_vertex + (geometry.corners[id] >> (8 * i) & 255U);
+    const std::uint32_t v =
+        geometry.clusters[cluster_of(id)].first_vertex + (geometry.corners[id] >> (8 * i) & 255U);
     const auto corner =
         project(light, *source.view, glm::dvec3(geometry.x_ws[v], geometry.y_ws[v], geometry.z_ws[v]));
     if (!corner) return std::nullopt;

@@ -11,19 +11,37 @@ constexpr std::array<SampleOffset, 2> kTwo = {{{64, 64}, {-64, -64}}};
 constexpr std::array<SampleOffset, 4> kFour = {{{-32, -96}, {96, -32}, {-96, 32}, {32, 96}}};
 constexpr std::array<SampleOffset, 8> kEight = {
     {{16, -48}, {-16, 48}, {80, 16}, {-48, -80}, {-80, 80}, {-112, -16}, {48, 112}, {112, -112}}};
-constexpr std::array<SampleOffset, 16> kSixteen = {
-    {{16, 16}, {-16, -48}, {-48, 32}, {64, -16}, {-80, -32}, {32, 80}, {80, 48}, {48, -80},
-     {-32, 96}, {0, -112}, {-64, -96}, {-96, 64}, {-128, 0}, {112, -64}, {96, 112}, {-112, -128}}};
+constexpr std::array<SampleOffset, 16> kSixteen = {{{16, 16},
+                                                    {-16, -48},
+                                                    {-48, 32},
+                                                    {64, -16},
+                                                    {-80, -32},
+                                                    {32, 80},
+                                                    {80, 48},
+                                                    {48, -80},
+                                                    {-32, 96},
+                                                    {0, -112},
+                                                    {-64, -96},
+                                                    {-96, 64},
+                                                    {-128, 0},
+                                                    {112, -64},
+                                                    {96, 112},
+                                                    {-112, -128}}};
 
 }  // namespace
 
 std::span<const SampleOffset> sample_offsets(int count) {
   switch (count) {
-    case 2: return kTwo;
-    case 4: return kFour;
-    case 8: return kEight;
-    case 16: return kSixteen;
-    default: return kOne;
+    case 2:
+      return kTwo;
+    case 4:
+      return kFour;
+    case 8:
+      return kEight;
+    case 16:
+      return kSixteen;
+    default:
+      return kOne;
   }
 }
 

@@ -15,7 +15,8 @@ class SurfaceCut final : public raster::AlphaCut {
   SurfaceCut(const PointSource& source, bool full_size, InstructionSet set)
       : source_(source), full_size_(full_size), keep_above_cutoff_(keep_above_cutoff_for(set)) {}
 
-  [[nodiscard]] std::uint32_t keep(TriangleId id, const raster::BlockSamples& samples, std::uint32_t mask) const override;
+  [[nodiscard]] std::uint32_t keep(TriangleId id, const raster::BlockSamples& samples,
+                                   std::uint32_t mask) const override;
 
  private:
   PointSource source_;

@@ -28,7 +28,8 @@ void SurfaceGroups::add_mixed_block(std::uint16_t block, const TriangleId* ids) 
   while (left != 0) {
     const std::uint32_t wanted = surface[static_cast<std::size_t>(__builtin_ctz(left))];
     std::uint32_t mask = 0;
-    for (std::uint32_t i = 0; i < raster::kBlockPixels; ++i) mask |= static_cast<std::uint32_t>(surface[i] == wanted) << i;
+    for (std::uint32_t i = 0; i < raster::kBlockPixels; ++i)
+      mask |= static_cast<std::uint32_t>(surface[i] == wanted) << i;
     mask &= left;
     group_of(wanted).blocks.push_back({block, static_cast<std::uint16_t>(mask)});
     left &= ~mask;

@@ -10,7 +10,8 @@ namespace laterna::shade {
 
 /// Reflectance and orientation of samples, in the order of SurfaceSamples.
 struct SurfacePoints {
-  shadow::SampleArray<float> normal_x_ws, normal_y_ws, normal_z_ws;  // shading normal, unit, toward the viewer's side
+  shadow::SampleArray<float> normal_x_ws, normal_y_ws,
+      normal_z_ws;  // shading normal, unit, toward the viewer's side
   shadow::SampleArray<float> to_eye_x_ws, to_eye_y_ws, to_eye_z_ws;  // unit
   shadow::SampleArray<float> base_r, base_g, base_b, alpha;          // base colour, linear
   shadow::SampleArray<float> metallic, roughness, occlusion;
@@ -38,8 +39,8 @@ struct CutBlock {
   /// Textures are read at their full size instead of the size that suits the view.
   bool full_size;
 };
-using KeepAboveCutoff = std::uint32_t (*)(const PointSource& source, const frame::Surface& surface, float cutoff,
-                                          const CutBlock& block);
+using KeepAboveCutoff = std::uint32_t (*)(const PointSource& source, const frame::Surface& surface,
+                                          float cutoff, const CutBlock& block);
 KeepAboveCutoff keep_above_cutoff_for(InstructionSet set);
 
 }  // namespace laterna::shade

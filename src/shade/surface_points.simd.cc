@@ -2,6 +2,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shade/surface_points.simd.cc"
 #include "base/simd.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -84,9 +85,8 @@ HWY_INLINE void MakeAffine(const PixelRays& rays, const CornerVectors& corners, 
       hn::And(hn::And(a.w >= near, b.w >= near), hn::And(c.w >= near, hn::Abs(area) > Splat(1e-12F)));
   const auto inverse = Splat(1.0F) / hn::IfThenElse(is_usable, area, Splat(1.0F));
   const auto px = x - a.x, py = y - a.y;
-  const auto choose = [&](FloatVector affine, FloatVector& kept) HWY_ATTR {
-    kept = hn::IfThenElse(is_usable, affine, kept);
-  };
+  const auto choose = [&](FloatVector affine, FloatVector& kept)
+                          HWY_ATTR { kept = hn::IfThenElse(is_usable, affine, kept); };
   choose((px * vy - vx * py) * inverse, weights.b);
   choose((ux * py - px * uy) * inverse, weights.c);
   choose(vy * inverse, weights.db_dx);
@@ -95,8 +95,8 @@ HWY_INLINE void MakeAffine(const PixelRays& rays, const CornerVectors& corners, 
   choose(ux * inverse, weights.dc_dy);
 }
 
-HWY_INLINE Hit FindHit(const PixelRays& rays, const CornerVectors& corners, FloatVector x, FloatVector y, FloatVector q,
-                       Interpolation interpolation) {
+HWY_INLINE Hit FindHit(const PixelRays& rays, const CornerVectors& corners, FloatVector x, FloatVector y,
+                       FloatVector q, Interpolation interpolation) {
   const auto one = Splat(1.0F);
   const Vector3 direction = rays.Direction(x, y);
   const Vector3 direction_x = Splat3(rays.direction_x), direction_y = Splat3(rays.direction_y);
@@ -156,8 +156,8 @@ HWY_INLINE Hit FindHit(const PixelRays& rays, const CornerVectors& corners, Floa
 template <bool kUniform>
 class SurfaceReader {
  public:
-  SurfaceReader(const PointSource& source, const frame::Surface& surface, const PixelRays& rays, const TriangleId* ids,
-                FloatVector x, FloatVector y, FloatVector q)
+  SurfaceReader(const PointSource& source, const frame::Surface& surface, const PixelRays& rays,
+                const TriangleId* ids, FloatVector x, FloatVector y, FloatVector q)
       : source_(source),
         surface_(surface),
         frame_(*source.frame),
@@ -181,8 +181,8 @@ class SurfaceReader {
   // Base colour with everything that multiplies it.
   template <bool kAlpha>
   HWY_INLINE Texel4 BaseColor(bool full_size = false) const {
-    Texel4 color = {Splat(surface_.base_color[0]), Splat(surface_.base_color[1]), Splat(surface_.base_color[2]),
-                    Splat(surface_.base_color[3])};
+    Texel4 color = {Splat(surface_.base_color[0]), Splat(surface_.base_color[1]),
+                    Splat(surface_.base_color[2]), Splat(surface_.base_color[3])};
     if (surface_.base_color_texture.chain != nullptr) {
       const Texel4 t = full_size ? LookUpFullSize(surface_.base_color_texture)
                                  : LookUpTexture<kAlpha>(surface_.base_color_texture, source_.anisotropy);
@@ -209,7 +209,8 @@ class SurfaceReader {
                                                    frame_.normal_z_ws.data(), stream.first),
                                       hit_.weights);
       const Vector3 smooth = Normalised(sum);
-      normal = {stream.OrElse(smooth.x, normal.x), stream.OrElse(smooth.y, normal.y), stream.OrElse(smooth.z, normal.z)};
+      normal = {stream.OrElse(smooth.x, normal.x), stream.OrElse(smooth.y, normal.y),
+                stream.OrElse(smooth.z, normal.z)};
     }
     if (surface_.normal_texture.chain != nullptr) normal = Perturbed(normal);
     return surface_.double_sided ? IfThenElse3(hit_.shows_back, normal * Splat(-1.0F), normal) : normal;
@@ -230,12 +231,14 @@ class SurfaceReader {
     present(v);
     // KHR_texture_transform.
     const std::array<float, 6>& m = binding.uv_from_mesh_uv;
-    const auto row = [&](std::size_t r, FloatVector a, FloatVector b) HWY_ATTR {
-      return Splat(m[r]) * a + Splat(m[r + 1]) * b;
-    };
-    return {row(0, u.value, v.value) + Splat(m[2]), row(3, u.value, v.value) + Splat(m[5]),
-            row(0, u.d_dx, v.d_dx),                 row(3, u.d_dx, v.d_dx),
-            row(0, u.d_dy, v.d_dy),                 row(3, u.d_dy, v.d_dy)};
+    const auto row = [&](std::size_t r, FloatVector a, FloatVector b)
+                         HWY_ATTR { return Splat(m[r]) * a + Splat(m[r + 1]) * b; };
+    return {row(0, u.value, v.value) + Splat(m[2]),
+            row(3, u.value, v.value) + Splat(m[5]),
+            row(0, u.d_dx, v.d_dx),
+            row(3, u.d_dx, v.d_dx),
+            row(0, u.d_dy, v.d_dy),
+            row(3, u.d_dy, v.d_dy)};
   }
 
   // The normal map's vector in the frame of tangent, bitangent and normal (glTF 2.0, 3.9.3).
@@ -253,7 +256,8 @@ class SurfaceReader {
     const Vector3 mapped = Normalised((tangent * local.x + bitangent * local.y) + normal * local.z);
     const auto is_null = Dot(mapped, mapped) <= Splat(0.0F);
     const Vector3 usable = IfThenElse3(is_null, normal, mapped);
-    return {stream.OrElse(usable.x, normal.x), stream.OrElse(usable.y, normal.y), stream.OrElse(usable.z, normal.z)};
+    return {stream.OrElse(usable.x, normal.x), stream.OrElse(usable.y, normal.y),
+            stream.OrElse(usable.z, normal.z)};
   }
 
   const PointSource& source_;
@@ -284,14 +288,15 @@ HWY_INLINE void FindPoints(const PointSource& source, const frame::Surface& surf
   Store3(hit.to_eye_ws, p.to_eye_x_ws.data(), p.to_eye_y_ws.data(), p.to_eye_z_ws.data(), i);
   Store3(reader.ShadingNormal(), p.normal_x_ws.data(), p.normal_y_ws.data(), p.normal_z_ws.data(), i);
 
-  const Texel4 base =
-      surface.alpha_mode == AlphaMode::opaque ? reader.template BaseColor<false>() : reader.template BaseColor<true>();
+  const Texel4 base = surface.alpha_mode == AlphaMode::opaque ? reader.template BaseColor<false>()
+                                                              : reader.template BaseColor<true>();
   Store3({base.r, base.g, base.b}, p.base_r.data(), p.base_g.data(), p.base_b.data(), i);
   hn::Store(surface.alpha_mode == AlphaMode::blend ? base.a : Splat(1.0F), d, p.alpha.data() + i);
 
   auto metallic = Splat(surface.metallic), roughness = Splat(surface.roughness), occlusion = Splat(1.0F);
   if (surface.metallic_roughness_texture.chain != nullptr) {
-    const Texel4 t = reader.template LookUpTexture<false>(surface.metallic_roughness_texture, source.anisotropy);
+    const Texel4 t =
+        reader.template LookUpTexture<false>(surface.metallic_roughness_texture, source.anisotropy);
     roughness = roughness * t.g;
     metallic = metallic * t.b;
   }
@@ -320,14 +325,16 @@ HWY_INLINE bool IsOneTriangle(const TriangleId* ids) {
   return true;
 }
 
-void find_surface_points(const PointSource& source, const frame::Surface& surface, shadow::SurfaceSamples& samples,
-                         SurfacePoints& points) {
+void find_surface_points(const PointSource& source, const frame::Surface& surface,
+                         shadow::SurfaceSamples& samples, SurfacePoints& points) {
   const PixelRays rays(*source.view);
   for (std::size_t first = 0; first < samples.group_count * kGroupSize; first += kGroupSize) {
     if (IsOneTriangle(samples.id.data() + first)) {
-      for (std::size_t k = 0; k < kGroupSize; k += kLanes) FindPoints<true>(source, surface, rays, samples, points, first + k);
+      for (std::size_t k = 0; k < kGroupSize; k += kLanes)
+        FindPoints<true>(source, surface, rays, samples, points, first + k);
     } else {
-      for (std::size_t k = 0; k < kGroupSize; k += kLanes) FindPoints<false>(source, surface, rays, samples, points, first + k);
+      for (std::size_t k = 0; k < kGroupSize; k += kLanes)
+        FindPoints<false>(source, surface, rays, samples, points, first + k);
     }
   }
 }
@@ -341,7 +348,8 @@ std::uint32_t keep_above_cutoff(const PointSource& source, const frame::Surface&
   const PixelRays rays(*source.view);
   std::uint32_t kept = 0;
   for (std::size_t k = 0; k < kGroupSize; k += kLanes) {
-    const SurfaceReader<true> reader(source, surface, rays, &block.id, Splat(block.x) + hn::Load(d, kBlockX + k),
+    const SurfaceReader<true> reader(source, surface, rays, &block.id,
+                                     Splat(block.x) + hn::Load(d, kBlockX + k),
                                      Splat(block.y) + hn::Load(d, kBlockY + k), hn::LoadU(d, block.q + k));
     const Texel4 color = reader.template BaseColor<true>(block.full_size);
     std::uint8_t bits[8] = {};

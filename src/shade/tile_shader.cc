@@ -163,7 +163,8 @@ class TileShader::Worker {
     groups_.collect(ids_);
     for (const SurfaceGroups::Group& group : groups_.groups()) {
       for (std::size_t first = 0; first < group.blocks.size(); first += kMaxGroups) {
-        fill_from_blocks(std::span(group.blocks).subspan(first, std::min(kMaxGroups, group.blocks.size() - first)));
+        fill_from_blocks(
+            std::span(group.blocks).subspan(first, std::min(kMaxGroups, group.blocks.size() - first)));
         shade_batch(job_.frame->surfaces[group.surface], targets, part, true);
       }
     }
@@ -211,8 +212,10 @@ class TileShader::Worker {
       const std::size_t block = blocks[group].block;
       const std::size_t first = group * kGroupSize;
       s.active[group] = blocks[group].mask;
-      const float x = static_cast<float>(origin_x + static_cast<int>(block % raster::kBlocksPerSide) * 4) + sample_x();
-      const float y = static_cast<float>(origin_y + static_cast<int>(block / raster::kBlocksPerSide) * 4) + sample_y();
+      const float x =
+          static_cast<float>(origin_x + static_cast<int>(block % raster::kBlocksPerSide) * 4) + sample_x();
+      const float y =
+          static_cast<float>(origin_y + static_cast<int>(block / raster::kBlocksPerSide) * 4) + sample_y();
       for (std::size_t i = 0; i < kGroupSize; ++i) {
         s.x[first + i] = x + static_cast<float>(i & 3U);
         s.y[first + i] = y + static_cast<float>(i >> 2U);
@@ -225,8 +228,12 @@ class TileShader::Worker {
     bound_position_error();
   }
 
-  [[nodiscard]] float sample_x() const { return 0.5F + static_cast<float>(offsets_[sample_].x) / raster::kSubpixels; }
-  [[nodiscard]] float sample_y() const { return 0.5F + static_cast<float>(offsets_[sample_].y) / raster::kSubpixels; }
+  [[nodiscard]] float sample_x() const {
+    return 0.5F + static_cast<float>(offsets_[sample_].x) / raster::kSubpixels;
+  }
+  [[nodiscard]] float sample_y() const {
+    return 0.5F + static_cast<float>(offsets_[sample_].y) / raster::kSubpixels;
+  }
 
   // Samples that do not count become copies of one that does.
   void repeat_active(std::size_t group) {
@@ -248,10 +255,12 @@ class TileShader::Worker {
     SurfaceSamples& s = *samples_;
     const frame::Bounds& bounds = job_.frame->bounds;
     float extent = 0;
-    for (int k = 0; k < 3; ++k) extent = std::max({extent, std::abs(bounds.low[k]), std::abs(bounds.high[k])});
+    for (int k = 0; k < 3; ++k)
+      extent = std::max({extent, std::abs(bounds.low[k]), std::abs(bounds.high[k])});
     float q = s.q[0];
     for (std::size_t i = 1; i < s.group_count * kGroupSize; ++i) q = std::min(q, s.q[i]);
-    const float distance = job_.view->is_orthographic ? static_cast<float>(job_.view->view.projection.far) : 1 / q;
+    const float distance =
+        job_.view->is_orthographic ? static_cast<float>(job_.view->view.projection.far) : 1 / q;
     s.position_error = 1.2e-7F * extent + 4e-7F * distance;
   }
 
@@ -336,7 +345,8 @@ class TileShader::Worker {
     float* alpha = fragment_values_.data() + count * 3 * planes_.size();
     for (const FragmentList::Run& run : fragments_.by_surface(*job_.frame)) {
       for (std::size_t first = 0; first < run.fragments.size(); first += shadow::kMaxSamples) {
-        fill_from_fragments(run.fragments.subspan(first, std::min(shadow::kMaxSamples, run.fragments.size() - first)));
+        fill_from_fragments(
+            run.fragments.subspan(first, std::min(shadow::kMaxSamples, run.fragments.size() - first)));
         shade_batch(job_.frame->surfaces[run.surface], targets, {true, 0, job_.lights.size()}, false);
         scatter(*samples_, points_->alpha.data(), alpha);
       }
@@ -381,7 +391,8 @@ class TileShader::Worker {
   // -------------------------------------------------------------------------------------------- layers
 
   void find_coverage() {
-    for (std::size_t i = 0; i < kTilePixels; ++i) coverage_[i] = ids_[i] == kNoTriangle && !job_.background ? 0.0F : 1.0F;
+    for (std::size_t i = 0; i < kTilePixels; ++i)
+      coverage_[i] = ids_[i] == kNoTriangle && !job_.background ? 0.0F : 1.0F;
   }
 
   void start_data_layers() {

@@ -26,9 +26,9 @@ struct WantedLayers {
   bool visibility = false;  // per light
   bool slide_uv = false;    // per projector
   bool lux = false;
-  bool geometry = false;    // depth, position, normal, object
+  bool geometry = false;  // depth, position, normal, object
   bool albedo = false;
-  bool passes = false;    // Passes::multi: the frame buffer after each pass
+  bool passes = false;  // Passes::multi: the frame buffer after each pass
 };
 
 /// Everything that is the same for all tiles of a picture.
@@ -65,7 +65,8 @@ struct TileResult {
   TilePlane lux;
   TilePlane depth;  // metres along the axis, +infinity where nothing is
   TileColor position, normal, albedo;
-  std::array<std::uint32_t, raster::kTilePixels> object;  // index of the frame's object, kNoObject where nothing is
+  std::array<std::uint32_t, raster::kTilePixels>
+      object;  // index of the frame's object, kNoObject where nothing is
 };
 inline constexpr std::uint32_t kNoObject = 0xFFFFFFFFU;
 

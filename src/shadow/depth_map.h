@@ -24,7 +24,8 @@ class DepthMap {
       : view_(view),
         tiles_x_((view.width + raster::kTileSide - 1) / raster::kTileSide),
         tiles_y_((view.height + raster::kTileSide - 1) / raster::kTileSide),
-        texels_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_) * raster::kTilePixels),
+        texels_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_) *
+                raster::kTilePixels),
         triangles_(keeps_triangles ? texels_.size() : 0) {}
 
   [[nodiscard]] const raster::RasterView& view() const { return view_; }
@@ -38,10 +39,13 @@ class DepthMap {
   [[nodiscard]] TriangleId* triangle_tile(int x, int y) {
     return triangles_.empty() ? nullptr : triangles_.data() + tile_start(x, y);
   }
-  [[nodiscard]] const TriangleId* triangles() const { return triangles_.empty() ? nullptr : triangles_.data(); }
+  [[nodiscard]] const TriangleId* triangles() const {
+    return triangles_.empty() ? nullptr : triangles_.data();
+  }
   [[nodiscard]] float reversed_depth(int x, int y) const {
     return texels_[tile_start(x >> raster::kTileBits, y >> raster::kTileBits) +
-                   static_cast<std::size_t>(raster::index_in_tile(x & (raster::kTileSide - 1), y & (raster::kTileSide - 1)))];
+                   static_cast<std::size_t>(
+                       raster::index_in_tile(x & (raster::kTileSide - 1), y & (raster::kTileSide - 1)))];
   }
   /// Metres along the axis, +infinity where nothing is.
   [[nodiscard]] double distance(int x, int y) const {

@@ -45,7 +45,8 @@ void RayTracedShadow::find_arrival(const SurfaceSamples& samples, std::span<cons
       const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
       const glm::vec3 position(samples.x_ws[i], samples.y_ws[i], samples.z_ws[i]);
       const Ray ray = ray_to_light(glm::dvec3(position));
-      const bool is_blocked = ray.length > near && scene_->is_blocked(position, ray.direction_ws, near, ray.length, samples.id[i]);
+      const bool is_blocked = ray.length > near &&
+                              scene_->is_blocked(position, ray.direction_ws, near, ray.length, samples.id[i]);
       alpha[i] = is_blocked ? 0.0F : 1.0F;
     }
   }

@@ -39,9 +39,9 @@ ShadowBias bias_of(const ShadowSettings& settings) {
   return bias;
 }
 
-ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<const DepthMap>> maps,
-                     const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
-                     InstructionSet set)
+ShadowMap::ShadowMap(const light::PlannedLight& planned,
+                     std::span<const std::shared_ptr<const DepthMap>> maps, const frame::Frame& frame,
+                     const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set)
     : maps_(maps.begin(), maps.end()) {
   for (std::size_t i = 0; i < maps.size(); ++i) {
     test_.maps.push_back(bind(*maps[i], ray));
@@ -61,7 +61,8 @@ ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::sh
   test_.instruction_set = set;
 }
 
-void ShadowMap::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted, float* alpha) const {
+void ShadowMap::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+                             float* alpha) const {
   look_up_shadow_map_for(test_.instruction_set)(test_, samples, wanted, alpha);
 }
 

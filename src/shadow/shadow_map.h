@@ -28,13 +28,14 @@ struct ShadowBias {
 /// One depth map bound to the rays of the samples that will ask it. What the kernel reads.
 struct BoundDepthMap {
   const DepthMap* map = nullptr;
-  ProjectedView position;        // pixel-homogeneous
-  ProjectedRow homogeneous;      // the samples' fourth coordinate
+  ProjectedView position;    // pixel-homogeneous
+  ProjectedRow homogeneous;  // the samples' fourth coordinate
   bool is_orthographic = false;
-  float eye_ws[3];               // perspective
-  float direction_x_ws[3], direction_y_ws[3];  // of one texel to the right and down, at distance 1 (perspective) or in metres
-  float axis_ws[3];              // orthographic: toward the light
-  float texel_size = 0;          // at distance 1, or in metres
+  float eye_ws[3];  // perspective
+  float direction_x_ws[3],
+      direction_y_ws[3];  // of one texel to the right and down, at distance 1 (perspective) or in metres
+  float axis_ws[3];       // orthographic: toward the light
+  float texel_size = 0;   // at distance 1, or in metres
 };
 
 /// What one light's look-ups need.
@@ -54,8 +55,10 @@ struct ShadowMapTest {
 class ShadowMap final : public ShadowTechnique {
  public:
   ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<const DepthMap>> maps,
-            const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set);
-  void find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted, float* alpha) const override;
+            const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
+            InstructionSet set);
+  void find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+                    float* alpha) const override;
 
  private:
   std::vector<std::shared_ptr<const DepthMap>> maps_;

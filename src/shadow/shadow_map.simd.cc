@@ -2,6 +2,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shadow/shadow_map.simd.cc"
 #include "base/simd.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -57,9 +58,9 @@ HWY_INLINE IntVector RowPart(IntVector j, std::int32_t tiles_x) {
 
 // The four texels around a sample.
 struct Quad {
-  IntVector column[2], row[2];   // parts of the texels' indices
+  IntVector column[2], row[2];  // parts of the texels' indices
   FloatMask column_in[2], row_in[2];
-  FloatVector dx[2], dy[2];      // from the sample to the texels' centres
+  FloatVector dx[2], dy[2];        // from the sample to the texels' centres
   FloatVector weight_x, weight_y;  // of the second column and row
 };
 
@@ -70,9 +71,11 @@ class MapReader {
 
   HWY_INLINE Receiver Find(const Points& p) const {
     const auto X = Evaluate(bound_.position.x, p.x, p.y, p.q), Y = Evaluate(bound_.position.y, p.x, p.y, p.q);
-    const auto W = Evaluate(bound_.position.divisor, p.x, p.y, p.q), h = Evaluate(bound_.homogeneous, p.x, p.y, p.q);
+    const auto W = Evaluate(bound_.position.divisor, p.x, p.y, p.q),
+               h = Evaluate(bound_.homogeneous, p.x, p.y, p.q);
     const raster::RasterView& view = map_.view();
-    const auto origin_x = Splat(static_cast<float>(view.origin_x)), origin_y = Splat(static_cast<float>(view.origin_y));
+    const auto origin_x = Splat(static_cast<float>(view.origin_x)),
+               origin_y = Splat(static_cast<float>(view.origin_y));
     const auto error = Splat(position_error_);
     const auto far = Splat(view.reversed_far);
     Receiver r;
@@ -105,8 +108,10 @@ class MapReader {
     // A plane seen edge-on has no slope to speak of; its lit and dark sides meet in one texel.
     const auto is_edge_on = hn::Abs(plane_divisor) <= Splat(1e-9F);
     const auto inverse_divisor = Splat(1.0F) / hn::IfThenElse(is_edge_on, Splat(1.0F), plane_divisor);
-    r.q_dx = hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, Splat3(bound_.direction_x_ws)) * inverse_divisor);
-    r.q_dy = hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, Splat3(bound_.direction_y_ws)) * inverse_divisor);
+    r.q_dx =
+        hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, Splat3(bound_.direction_x_ws)) * inverse_divisor);
+    r.q_dy =
+        hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, Splat3(bound_.direction_y_ws)) * inverse_divisor);
     return r;
   }
 
@@ -116,14 +121,20 @@ class MapReader {
     const ShadowBias& b = test_.bias;
     const auto slope = hn::Abs(r.q_dx) + hn::Abs(r.q_dy);
     const auto metres = Splat(b.metres) * (bound_.is_orthographic ? Splat(1.0F) : r.q * r.q);
-    const auto bias =
-        r.rounding + metres + hn::IfThenElseZero(r.faces_light, Splat(b.texels) * r.texel + Splat(b.slope) * slope);
+    const auto bias = r.rounding + metres +
+                      hn::IfThenElseZero(r.faces_light, Splat(b.texels) * r.texel + Splat(b.slope) * slope);
     if (!b.uses_receiver_plane) r.q_dx = r.q_dy = Splat(0.0F);
     FloatVector lit;
     switch (test_.filter) {
-      case ShadowFilter::nearest: lit = PercentageCloser(r, bias, 1); break;
-      case ShadowFilter::percentage_closer: lit = PercentageCloser(r, bias, test_.kernel); break;
-      default: lit = Bilinear(r, bias); break;
+      case ShadowFilter::nearest:
+        lit = PercentageCloser(r, bias, 1);
+        break;
+      case ShadowFilter::percentage_closer:
+        lit = PercentageCloser(r, bias, test_.kernel);
+        break;
+      default:
+        lit = Bilinear(r, bias);
+        break;
     }
     return hn::IfThenElse(r.is_seen, lit, Outside());
   }
@@ -141,7 +152,8 @@ class MapReader {
     quad.weight_y = y - floor_y;
     for (int k = 0; k < 2; ++k) {
       const auto column = k == 0 ? i : i + one, row = k == 0 ? j : j + one;
-      const auto held_column = hn::Min(hn::Max(column, zero), last_i), held_row = hn::Min(hn::Max(row, zero), last_j);
+      const auto held_column = hn::Min(hn::Max(column, zero), last_i),
+                 held_row = hn::Min(hn::Max(row, zero), last_j);
       quad.column[k] = ColumnPart(held_column);
       quad.row[k] = RowPart(held_row, map_.tiles_x());
       quad.column_in[k] = hn::RebindMask(d, held_column == column);
@@ -181,7 +193,9 @@ class MapReader {
   }
 
   // Texel coordinates far outside would not fit an int.
-  HWY_INLINE FloatVector Held(FloatVector v) const { return hn::Min(hn::Max(v, Splat(-65536.0F)), Splat(65536.0F)); }
+  HWY_INLINE FloatVector Held(FloatVector v) const {
+    return hn::Min(hn::Max(v, Splat(-65536.0F)), Splat(65536.0F));
+  }
 
   HWY_INLINE FloatVector Bilinear(const Receiver& r, FloatVector bias) const {
     const Quad quad = FindQuad(r);
@@ -211,8 +225,8 @@ class MapReader {
     auto sum = hn::Zero(d);
     for (int row = 0; row < kernel; ++row) {
       for (int column = 0; column < kernel; ++column) {
-        sum = sum + Tap(r, bias, i + SplatInt(column), j + SplatInt(row), dx + Splat(static_cast<float>(column)),
-                        dy + Splat(static_cast<float>(row)));
+        sum = sum + Tap(r, bias, i + SplatInt(column), j + SplatInt(row),
+                        dx + Splat(static_cast<float>(column)), dy + Splat(static_cast<float>(row)));
       }
     }
     return sum / Splat(static_cast<float>(kernel * kernel));
@@ -320,9 +334,10 @@ HWY_INLINE Blocking TestTriangles(const ShadowMapTest& test, const BoundDepthMap
   blocking.is_small = hn::Abs(determinant) < Splat(2 * kSmallTexels) * texel_area;
 
   // Holes of cut-outs.
-  const auto flags = hn::GatherIndex(IntTag(), reinterpret_cast<const std::int32_t*>(test.frame->clusters.data()),
-                                     corners.Clusters() * SplatInt(sizeof(Cluster) / sizeof(std::int32_t)) +
-                                         SplatInt(offsetof(Cluster, flags) / sizeof(std::int32_t)));
+  const auto flags =
+      hn::GatherIndex(IntTag(), reinterpret_cast<const std::int32_t*>(test.frame->clusters.data()),
+                      corners.Clusters() * SplatInt(sizeof(Cluster) / sizeof(std::int32_t)) +
+                          SplatInt(offsetof(Cluster, flags) / sizeof(std::int32_t)));
   const auto is_cut = hn::RebindMask(
       d, hn::And(flags, SplatInt(static_cast<std::int32_t>(kAlphaMask | kAlphaBlend))) != hn::Zero(IntTag()));
   if (!hn::AllFalse(d, hn::And(is_cut, blocking.blocks))) {
@@ -335,7 +350,8 @@ HWY_INLINE Blocking TestTriangles(const ShadowMapTest& test, const BoundDepthMap
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (kept[i] == 0) continue;
       const auto triangle = static_cast<TriangleId>(id[i]);
-      const frame::Surface& surface = test.frame->surfaces[test.frame->clusters[cluster_of(triangle)].material];
+      const frame::Surface& surface =
+          test.frame->surfaces[test.frame->clusters[cluster_of(triangle)].material];
       const float cutoff = surface.alpha_mode == AlphaMode::mask ? surface.alpha_cutoff : 0.5F;
       kept[i] = frame::alpha_at(*test.frame, triangle, b[i], c[i]) < cutoff ? 1.0F : 0.0F;
     }
@@ -346,8 +362,8 @@ HWY_INLINE Blocking TestTriangles(const ShadowMapTest& test, const BoundDepthMap
 
 // α at N points: 0 where a triangle that one of the four texels saw blocks the light. Where none does, texels that saw
 // something far in front and too small to be sure of still weigh.
-HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const MapReader& reader, const Points& points,
-                                      IntVector own, FloatVector near) {
+HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const MapReader& reader,
+                                      const Points& points, IntVector own, FloatVector near) {
   const FloatTag d;
   const Receiver r = reader.Find(points);
   const Quad quad = reader.FindQuad(r);
@@ -360,13 +376,15 @@ HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const MapReader
     const auto asked = hn::Not(gaps.is_lit[k]);
     if (hn::AllFalse(d, asked)) continue;
     const auto index = quad.column[i] + quad.row[j];
-    const auto id = hn::GatherIndex(IntTag(), reinterpret_cast<const std::int32_t*>(reader.map().triangles()), index);
+    const auto id =
+        hn::GatherIndex(IntTag(), reinterpret_cast<const std::int32_t*>(reader.map().triangles()), index);
     // Texels that saw nothing are lit, and are not asked; an index is still read.
     const auto wanted = hn::AndNot(hn::RebindMask(d, id == own), asked);
     const auto safe = hn::IfThenElse(hn::RebindMask(IntTag(), asked), id, own);
     const Blocking blocking = TestTriangles(test, reader.bound(), points.position_ws, safe, wanted, near);
     blocked = hn::Or(blocked, blocking.blocks);
-    const auto weight = (i == 0 ? one - quad.weight_x : quad.weight_x) * (j == 0 ? one - quad.weight_y : quad.weight_y);
+    const auto weight =
+        (i == 0 ? one - quad.weight_x : quad.weight_x) * (j == 0 ? one - quad.weight_y : quad.weight_y);
     dark = dark + hn::IfThenElseZero(hn::And(gaps.is_far[k], blocking.is_small), weight);
   }
   const auto alpha = hn::IfThenZeroElse(blocked, one - dark);
@@ -393,13 +411,16 @@ struct Quick {
 HWY_INLINE Quick QuickArrival(const MapReader& reader, const Points& points) {
   const Receiver r = reader.Find(points);
   const FourGaps gaps = FindGaps(reader, r, reader.FindQuad(r));
-  const auto all_lit = hn::And(hn::And(gaps.is_lit[0], gaps.is_lit[1]), hn::And(gaps.is_lit[2], gaps.is_lit[3]));
-  const auto all_far = hn::And(hn::And(gaps.is_far[0], gaps.is_far[1]), hn::And(gaps.is_far[2], gaps.is_far[3]));
+  const auto all_lit =
+      hn::And(hn::And(gaps.is_lit[0], gaps.is_lit[1]), hn::And(gaps.is_lit[2], gaps.is_lit[3]));
+  const auto all_far =
+      hn::And(hn::And(gaps.is_far[0], gaps.is_far[1]), hn::And(gaps.is_far[2], gaps.is_far[3]));
   return {hn::IfThenElse(r.is_seen, hn::IfThenElseZero(all_lit, Splat(1.0F)), reader.Outside()),
           hn::AndNot(hn::Or(all_lit, all_far), r.is_seen)};
 }
 
-HWY_INLINE Slopes FindSlopes(const ShadowMapTest& test, const Points& p, FloatVector dq_dx, FloatVector dq_dy) {
+HWY_INLINE Slopes FindSlopes(const ShadowMapTest& test, const Points& p, FloatVector dq_dx,
+                             FloatVector dq_dy) {
   // The point is the homogeneous ray's first three coordinates over its fourth.
   const auto h = Evaluate(test.maps[0].homogeneous, p.x, p.y, p.q);
   const auto inverse = Splat(1.0F) / h;
@@ -412,7 +433,8 @@ HWY_INLINE Slopes FindSlopes(const ShadowMapTest& test, const Points& p, FloatVe
 }
 
 // The centre and four places about it, no two in one row or column. The centre casts the deciding vote.
-constexpr float kPlaces[5][2] = {{0, 0}, {-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}};
+constexpr float kPlaces[5][2] = {
+    {0, 0}, {-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}};
 
 // α at one of test.positions places in the pixels: the only one is the sample itself.
 HWY_INLINE FloatVector ArrivalAt(const ShadowMapTest& test, const SurfaceSamples& s, const Points& centre,
@@ -456,7 +478,8 @@ class RefinementList {
     for (std::size_t i = count_; i % kLanes != 0; ++i) indices_[i] = indices_[count_ - 1];
     for (std::size_t first = 0; first < count_; first += kLanes) {
       const auto index = hn::Load(di, indices_.data() + first);
-      const auto read = [&](const SampleArray<float>& values) HWY_ATTR { return hn::GatherIndex(d, values.data(), index); };
+      const auto read = [&](const SampleArray<float>& values)
+                            HWY_ATTR { return hn::GatherIndex(d, values.data(), index); };
       const Points points = {read(s.x),
                              read(s.y),
                              read(s.q),
@@ -480,8 +503,8 @@ class RefinementList {
   std::size_t count_ = 0;
 };
 
-void look_up_shadow_map(const ShadowMapTest& test, const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
-                        float* alpha) {
+void look_up_shadow_map(const ShadowMapTest& test, const SurfaceSamples& samples,
+                        std::span<const std::uint16_t> wanted, float* alpha) {
   RefinementList unsure;
   for (std::size_t group = 0; group < samples.group_count; ++group) {
     if (wanted[group] == 0) continue;
@@ -514,6 +537,8 @@ HWY_AFTER_NAMESPACE();
 namespace laterna::shadow {
 LATERNA_KERNEL_TABLE(look_up_shadow_map)
 
-bool is_lit(float stored, float tested, float bias) { return HWY_STATIC_DISPATCH(IsLit)(stored, tested, bias); }
+bool is_lit(float stored, float tested, float bias) {
+  return HWY_STATIC_DISPATCH(IsLit)(stored, tested, bias);
+}
 }  // namespace laterna::shadow
 #endif

@@ -33,8 +33,9 @@ struct SurfaceSamples {
 
   // Filled in by shade::find_surface_points:
   SampleArray<float> x_ws, y_ws, z_ws;
-  SampleArray<float> normal_x_ws, normal_y_ws, normal_z_ws;  // of the triangle, unit, on the side that is seen
-  SampleArray<float> dq_dx, dq_dy;                           // reversed depth along the triangle's plane, per pixel
+  SampleArray<float> normal_x_ws, normal_y_ws,
+      normal_z_ws;                  // of the triangle, unit, on the side that is seen
+  SampleArray<float> dq_dx, dq_dy;  // reversed depth along the triangle's plane, per pixel
   /// Bounds on how far x_ws, y_ws, z_ws may be off by rounding, in metres.
   float position_error = 0;
 };

@@ -24,7 +24,8 @@ float cutoff_of(const frame::Surface& surface) {
 }  // namespace
 
 struct RayScene::Implementation {
-  explicit Implementation(const frame::Frame& f) : frame(f), device(rtcNewDevice("isa=sse4.2")), scene(rtcNewScene(device)) {
+  explicit Implementation(const frame::Frame& f)
+      : frame(f), device(rtcNewDevice("isa=sse4.2")), scene(rtcNewScene(device)) {
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     add_triangles();
@@ -52,8 +53,8 @@ struct RayScene::Implementation {
     }
     if (ids.empty()) return;
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertex_count));
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertex_count));
     auto* corners = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), ids.size()));
     for (std::size_t i = 0; i < vertex_count; ++i) {
@@ -112,7 +113,8 @@ bool RayScene::is_blocked(const glm::vec3& origin_ws, const glm::vec3& direction
   return ray.tfar == -std::numeric_limits<float>::infinity();
 }
 
-RayScene::Hit RayScene::nearest(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near, float far) const {
+RayScene::Hit RayScene::nearest(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near,
+                                float far) const {
   Context context;
   rtcInitIntersectContext(&context.embree);
   context.own = kNoTriangle;

@@ -21,15 +21,16 @@ class RayScene {
   /// Whether anything that casts shadows lies on origin + t direction, t in [near, far]. Triangle `own`, on which the
   /// ray starts, is left out; cut-out and blended surfaces block where their alpha at full texture size reaches the
   /// cutoff. Const calls may come from several threads.
-  [[nodiscard]] bool is_blocked(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near, float far,
-                                TriangleId own) const;
+  [[nodiscard]] bool is_blocked(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near,
+                                float far, TriangleId own) const;
 
   /// Nearest hit, or kNoTriangle.
   struct Hit {
     TriangleId id = kNoTriangle;
     float t = 0;
   };
-  [[nodiscard]] Hit nearest(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near, float far) const;
+  [[nodiscard]] Hit nearest(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near,
+                            float far) const;
 
  private:
   struct Implementation;

@@ -76,7 +76,8 @@ reference::OwnedFrame counting_frame(Primitive primitive) {
 
 // Splits triangles of a plane region again and again at random points of random edges, where both neighbours share
 // the new point: a mesh without T-junctions whose triangles are of all sizes and many are slivers.
-std::vector<std::array<glm::vec2, 3>> random_tiling(std::mt19937& random, glm::vec2 low, glm::vec2 high, int splits) {
+std::vector<std::array<glm::vec2, 3>> random_tiling(std::mt19937& random, glm::vec2 low, glm::vec2 high,
+                                                    int splits) {
   std::vector<glm::vec2> points = {low, {high.x, low.y}, high, {low.x, high.y}};
   std::vector<std::array<int, 3>> triangles = {{0, 1, 2}, {0, 2, 3}};
   for (int n = 0; n < splits; ++n) {
@@ -116,7 +117,8 @@ TEST_P(RasterOnEverySet, MeshesWithSharedEdgesCoverEverySampleOnce) {
     // From far inside the picture to far beyond the guard band.
     const float reach = std::pow(10.0F, static_cast<float>(trial % 5));
     Mesher mesh;
-    for (const auto& t : random_tiling(random, {-reach - 1.7F, -reach - 1.3F}, {reach + 1.1F, reach + 2.3F}, 120)) {
+    for (const auto& t :
+         random_tiling(random, {-reach - 1.7F, -reach - 1.3F}, {reach + 1.1F, reach + 2.3F}, 120)) {
       mesh.triangle({t[0], 0}, {t[1], 0}, {t[2], 0});
     }
     const auto owned = counting_frame(mesh.primitive);
@@ -127,7 +129,8 @@ TEST_P(RasterOnEverySet, MeshesWithSharedEdgesCoverEverySampleOnce) {
     settings.offset_x = static_cast<int>(random() % 255) - 127;
     settings.offset_y = static_cast<int>(random() % 255) - 127;
     const Drawn drawn = draw(owned.frame, raster, settings);
-    for (std::size_t i = 0; i < drawn.count.size(); ++i) ASSERT_EQ(drawn.count[i], 1) << "trial " << trial << " pixel " << i;
+    for (std::size_t i = 0; i < drawn.count.size(); ++i)
+      ASSERT_EQ(drawn.count[i], 1) << "trial " << trial << " pixel " << i;
   }
 }
 
@@ -153,7 +156,8 @@ TEST_P(RasterOnEverySet, TiltedMeshesThroughTheNearPlaneHaveNoGapsAndNoDoubleHit
     for (int y = 0; y < 128; ++y) {
       for (int x = 0; x < 128; ++x) {
         // Where the pixel's ray meets the floor inside the mesh, once; above the horizon, never.
-        const glm::dvec3 direction = raster.direction_0 + raster.direction_x * (x - 64 + 0.5) + raster.direction_y * (y - 64 + 0.5);
+        const glm::dvec3 direction =
+            raster.direction_0 + raster.direction_x * (x - 64 + 0.5) + raster.direction_y * (y - 64 + 0.5);
         const double t = -1.5 / direction.y;
         const glm::dvec3 hit = glm::dvec3(0.3, 1.5, 0.2) + t * direction;
         const auto i = static_cast<std::size_t>(y * 128 + x);
@@ -236,7 +240,8 @@ TEST_P(RasterOnEverySet, DepthIsThePlanesReciprocalDistance) {
   for (int trial = 0; trial < 200; ++trial) {
     Scene scene;
     Mesher mesh;
-    const glm::vec3 a(place(random), place(random), -6 + place(random)), b(place(random), place(random), -6 + place(random)),
+    const glm::vec3 a(place(random), place(random), -6 + place(random)),
+        b(place(random), place(random), -6 + place(random)),
         c(place(random), place(random), -6 + place(random));
     mesh.triangle(a, b, c);
     reference::add_object(scene, "t", mesh.primitive);
@@ -253,7 +258,8 @@ TEST_P(RasterOnEverySet, DepthIsThePlanesReciprocalDistance) {
       for (int x = 0; x < 100; ++x) {
         const auto i = static_cast<std::size_t>(y * 100 + x);
         if (drawn.ids[i] == kNoTriangle) continue;
-        const glm::dvec3 direction = raster.direction_0 + raster.direction_x * (x - 50 + 0.5) + raster.direction_y * (y - 50 + 0.5);
+        const glm::dvec3 direction =
+            raster.direction_0 + raster.direction_x * (x - 50 + 0.5) + raster.direction_y * (y - 50 + 0.5);
         const double q = std::clamp(glm::dot(n, direction) / glm::dot(n, glm::dvec3(a)), lowest, highest);
         // Small triangles interpolate in float from float corners: the gradient's rounding grows with its steepness.
         const double steepness = (highest - lowest) / lowest;
@@ -297,7 +303,9 @@ Scene crowd() {
   Scene scene;
   for (int i = 0; i < 12; ++i) {
     const auto f = static_cast<float>(i);
-    reference::add_object(scene, "torus", reference::torus({2 * std::sin(f), 0.2F * f - 1, 2 * std::cos(2 * f)}, 0.8F, 0.3F, 48));
+    reference::add_object(
+        scene, "torus",
+        reference::torus({2 * std::sin(f), 0.2F * f - 1, 2 * std::cos(2 * f)}, 0.8F, 0.3F, 48));
   }
   reference::add_object(scene, "floor", reference::floor(60, -1.3F));
   return scene;

@@ -204,7 +204,8 @@ OwnedFrame make_frame(Scene scene) {
 float at(const LayeredImage& image, const std::string& channel, int x, int y) {
   const Channel* found = image.find(channel);
   if (found == nullptr) throw std::runtime_error("no channel " + channel);
-  return found->values[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)];
+  return found->values[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                       static_cast<std::size_t>(x)];
 }
 
 }  // namespace laterna::reference

@@ -45,7 +45,8 @@ TEST(Elementary, SrgbCurveMeetsTheStandardsPoints) {
   EXPECT_EQ(linear_from_srgb(0), 0);
   EXPECT_NEAR(linear_from_srgb(1), 1, 1e-15);
   EXPECT_NEAR(linear_from_srgb(0.5), 0.21404114048223255, 1e-15);
-  for (int i = 0; i <= 1000; ++i) EXPECT_NEAR(srgb_from_linear(linear_from_srgb(i / 1000.0)), i / 1000.0, 1e-7);
+  for (int i = 0; i <= 1000; ++i)
+    EXPECT_NEAR(srgb_from_linear(linear_from_srgb(i / 1000.0)), i / 1000.0, 1e-7);
 }
 
 }  // namespace
