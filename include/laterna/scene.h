@@ -158,7 +158,8 @@ struct Light {
   Projection projection = Projection::perspective(Angle::degrees(40), 1, 0.1, std::numeric_limits<double>::infinity());
   bool aspect_from_slide = true;  ///< the frustum's width follows the slide's; yfov is kept
   int slide = -1;                 ///< index into Scene::pictures; −1: plain white
-  bool slide_is_intensity = false;  ///< the picture is an intensity map: linear, in units of `intensity`
+  /// The picture is an intensity map: linear, candela per direction in units of `intensity`; there is no `profile`.
+  bool slide_is_intensity = false;
   BeamProfile profile = BeamProfile::flat_field;
   Outside outside = Outside::black;
 

@@ -24,7 +24,7 @@ PlacedLight place(const Light& light, int node, const Pose& pose, const Frame& f
   placed.view = {pose, projection};
   placed.intensity = light.intensity;
   if (light.type == LightType::projector && light.lumens) {
-    placed.intensity = candela_from_lumens(*light.lumens, projection, light.profile);
+    placed.intensity = candela_from_lumens(*light.lumens, projection, beam_profile(light));
   }
   return placed;
 }
@@ -33,6 +33,10 @@ PlacedLight place(const Light& light, int node, const Pose& pose, const Frame& f
 double quarter_solid_angle(double x, double y) { return arctangent(x * y / std::sqrt(1 + x * x + y * y)); }
 
 }  // namespace
+
+BeamProfile beam_profile(const Light& light) {
+  return light.slide_is_intensity ? BeamProfile::uniform_candela : light.profile;
+}
 
 double solid_angle(const Projection& p) {
   return quarter_solid_angle(p.right, p.top) - quarter_solid_angle(p.left, p.top) -

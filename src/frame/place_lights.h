@@ -8,6 +8,10 @@ namespace laterna::frame {
 /// Fills the frame's lights (enabled ones) and cameras, in node order.
 void place_lights_and_cameras(const Scene& scene, const std::vector<glm::dmat4>& world_from_node, Frame& frame);
 
+/// How a projector's intensity depends on the direction: an intensity map holds candela per direction by itself
+/// (row 16), whatever the profile says.
+BeamProfile beam_profile(const Light& light);
+
 /// Candela on the axis that make the frame of a projector throw `lumens` in all (row 16): flux = intensity × solid
 /// angle for uniform candela, illuminance at 1 m × area of the frame at 1 m for a flat field.
 double candela_from_lumens(double lumens, const Projection& projection, BeamProfile profile);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/elementary.h"
+#include "frame/place_lights.h"
 
 namespace laterna::shade {
 namespace {
@@ -25,6 +26,7 @@ BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterVie
       is_papers(model == ShadingModel::papers),
       homogeneous(shadow::homogeneous_row(ray)),
       is_orthographic(placed.view.projection.is_orthographic),
+      is_flat_field(frame::beam_profile(*placed.light) == BeamProfile::flat_field),
       slide(placed.slide),
       anisotropy(most_probes) {
   for (int i = 0; i < 3; ++i) {

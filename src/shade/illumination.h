@@ -27,6 +27,7 @@ struct BoundLight {
   shadow::ProjectedView slide_position;  // (s, t), (0, 0) the slide's top-left corner
   shadow::ProjectedRow homogeneous;
   bool is_orthographic = false;
+  bool is_flat_field = true;
   const image::MipChain* slide = nullptr;
   Sampler slide_sampler;
   int anisotropy = 1;

@@ -162,7 +162,7 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
     const auto distance = hn::Sqrt(Dot(from_light, from_light));
     const auto safe = hn::Max(distance, Splat(1e-6F));
     arriving.to_light = from_light * (Splat(-1.0F) / safe);
-    if (light.light->profile == BeamProfile::uniform_candela || light.is_papers) {
+    if (!light.is_flat_field || light.is_papers) {
       intensity = AttenuationAt(light, along, safe);
     } else {
       // Flat field: a wall square to the beam at distance z gets I f(z) everywhere, so a surface square to the ray
