@@ -109,6 +109,8 @@ class Renderer {
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
 
   [[nodiscard]] const Scene& scene() const;
   [[nodiscard]] int threads() const;

@@ -20,6 +20,8 @@ class OutputFile {
   static Result<OutputFile> create(const std::filesystem::path& target);
   OutputFile(OutputFile&&) noexcept = default;
   OutputFile& operator=(OutputFile&&) = delete;
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
   /// Without a commit(), removes the temporary file.
   ~OutputFile() = default;
 

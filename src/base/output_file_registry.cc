@@ -29,10 +29,11 @@ struct PendingOutput::Slot {
   Slot* next = nullptr;
   std::array<char, PATH_MAX> path = {};
 
-  static std::atomic<Slot*> first;
+  static std::atomic<Slot*> first;  // NOLINT(*-global-variables): a signal handler has nothing else to go by
 };
 
-constinit std::atomic<PendingOutput::Slot*> PendingOutput::Slot::first = nullptr;
+constinit std::atomic<PendingOutput::Slot*> PendingOutput::Slot::first =
+    nullptr;  // NOLINT(*-global-variables)
 
 static_assert(std::atomic<SlotState>::is_always_lock_free && std::atomic<void*>::is_always_lock_free,
               "a signal handler may touch only atomics without locks");

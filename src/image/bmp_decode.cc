@@ -180,7 +180,7 @@ std::vector<Colour> read_palette(const EncodedPicture& encoded, const BmpHeader&
 
 std::uint8_t index_at(std::span<const std::byte> row, std::size_t x, int bits) {
   const std::size_t bit = x * static_cast<std::size_t>(bits);
-  const unsigned byte = std::to_integer<unsigned>(row[bit / 8]);
+  const auto byte = std::to_integer<unsigned>(row[bit / 8]);
   return static_cast<std::uint8_t>((byte >> (8 - static_cast<std::size_t>(bits) - bit % 8)) &
                                    ((1U << bits) - 1));
 }

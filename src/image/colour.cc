@@ -15,7 +15,7 @@ constexpr std::uint32_t kOneBits = std::bit_cast<std::uint32_t>(1.0F);
 
 // The smallest float that is not below `value` > 0.
 float round_up(double value) {
-  const float nearest = static_cast<float>(value);
+  const auto nearest = static_cast<float>(value);
   if (static_cast<double>(nearest) >= value) return nearest;
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) + 1);
 }
@@ -37,7 +37,7 @@ class SrgbEncoder {
               std::numeric_limits<float>::infinity());
     std::size_t code = 0;
     for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
-      const float first =
+      const auto first =
           std::bit_cast<float>(kLowestBits + static_cast<std::uint32_t>(bucket << kBucketShift));
       while (first_value_[code + 1] <= first) ++code;
       first_code_[bucket] = static_cast<Code>(code);

@@ -29,6 +29,7 @@ Result<void> check_sizes(const LayeredImage& a, const LayeredImage& b) {
 
 Result<std::vector<ChannelPair>> pair_channels(const LayeredImage& a, const LayeredImage& b) {
   std::vector<ChannelPair> pairs;
+  pairs.reserve(a.channels.size());
   for (const Channel& channel : a.channels) pairs.emplace_back(&channel, b.find(channel.name));
   const bool all_found =
       std::all_of(pairs.begin(), pairs.end(), [](const ChannelPair& p) { return p.second != nullptr; });

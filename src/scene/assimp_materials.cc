@@ -84,7 +84,8 @@ int AssimpMaterials::use(unsigned material) {
 Material AssimpMaterials::convert(const aiMaterial& source) {
   Material material;
   material.metallic = 0;
-  material.name = aiString(const_cast<aiMaterial&>(source).GetName()).C_Str();
+  // GetName() only reads, but is not declared so.
+  material.name = aiString(const_cast<aiMaterial&>(source).GetName()).C_Str();  // NOLINT(*-const-cast)
   const bool is_placeholder = library_is_missing_ || material.name == AI_DEFAULT_MATERIAL_NAME;
   if (!is_placeholder) read_colors(source, material);
   const bool has_diffuse = source.GetTextureCount(aiTextureType_DIFFUSE) > 0;

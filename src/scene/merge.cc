@@ -62,6 +62,7 @@ void choose_descendants(const Scene& scene, std::vector<bool>& is_chosen) {
 
 std::string no_such_node(const Scene& scene, const std::string& name) {
   std::vector<std::string_view> names;
+  names.reserve(scene.nodes.size() + scene.meshes.size());
   for (const Node& node : scene.nodes) names.push_back(node.name);
   for (const Mesh& mesh : scene.meshes) names.push_back(mesh.name);
   return fmt::format("the scene has no node named {}{}", in_quotes(name), did_you_mean(name, names));

@@ -2,6 +2,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shade/illumination.simd.cc"
 #include "base/simd.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -19,8 +20,8 @@ using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 using image::HWY_NAMESPACE::Footprint;
 using image::HWY_NAMESPACE::LookUp;
 using image::HWY_NAMESPACE::Texel4;
-using shadow::HWY_NAMESPACE::Evaluate;
 using shadow::kGroupSize;
+using shadow::HWY_NAMESPACE::Evaluate;
 
 template <class Samples>
 HWY_INLINE Vector3 Load3(const Samples& x, const Samples& y, const Samples& z, std::size_t i) {
@@ -29,8 +30,9 @@ HWY_INLINE Vector3 Load3(const Samples& x, const Samples& y, const Samples& z, s
 }
 
 HWY_INLINE FloatMask LoadBits(std::uint16_t bits, std::size_t k) {
-  const std::uint16_t shifted = static_cast<std::uint16_t>(bits >> k);
-  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(shifted & 255U), static_cast<std::uint8_t>(shifted >> 8U)};
+  const auto shifted = static_cast<std::uint16_t>(bits >> k);
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(shifted & 255U),
+                                 static_cast<std::uint8_t>(shifted >> 8U)};
   return hn::LoadMaskBits(FloatTag(), bytes);
 }
 
@@ -52,20 +54,23 @@ struct Arriving {
 HWY_INLINE FloatVector AttenuationAt(const BoundLight& light, FloatVector along, FloatVector distance) {
   const FloatTag d;
   const auto one = Splat(1.0F);
-  const auto inverse_square = [&](FloatVector length) HWY_ATTR {
-    return one / hn::Max(length * length, Splat(1e-12F));
-  };
+  const auto inverse_square = [&](FloatVector length)
+                                  HWY_ATTR { return one / hn::Max(length * length, Splat(1e-12F)); };
   switch (light.light->attenuation) {
-    case Attenuation::none: return one;
-    case Attenuation::inverse_square: return light.is_papers ? one : inverse_square(distance);
+    case Attenuation::none:
+      return one;
+    case Attenuation::inverse_square:
+      return light.is_papers ? one : inverse_square(distance);
     case Attenuation::gltf_windowed: {
       if (light.is_papers) return one;
       const auto ratio = distance * Splat(light.inverse_range);
       const auto squared = ratio * ratio;
       return Saturate(one - squared * squared) * inverse_square(distance);
     }
-    case Attenuation::linear: return Saturate(one - along * Splat(light.inverse_range));
-    case Attenuation::custom: break;
+    case Attenuation::linear:
+      return Saturate(one - along * Splat(light.inverse_range));
+    case Attenuation::custom:
+      break;
   }
   alignas(64) float values[kLanes];
   hn::Store(along, d, values);
@@ -75,18 +80,20 @@ HWY_INLINE FloatVector AttenuationAt(const BoundLight& light, FloatVector along,
 
 HWY_INLINE Arriving FromAfar(const BoundLight& light) {
   const float to_light[3] = {-light.forward_ws[0], -light.forward_ws[1], -light.forward_ws[2]};
-  return {Splat3(light.color), Splat3(to_light), Splat(0.0F) == Splat(0.0F)};
+  return {Splat3(light.color), Splat3(to_light),
+          Splat(0.0F) == Splat(0.0F)};  // NOLINT(misc-redundant-expression)
 }
 
 HWY_INLINE Arriving FromPoint(const BoundLight& light, const Vector3& p) {
   const Vector3 from_light = p - Splat3(light.position_ws);
   const auto distance = hn::Sqrt(Dot(from_light, from_light));
   const auto is_there = distance <= Splat(1e-6F);
-  const auto inverse = hn::IfThenZeroElse(is_there, Splat(1.0F) / hn::IfThenElse(is_there, Splat(1.0F), distance));
+  const auto inverse =
+      hn::IfThenZeroElse(is_there, Splat(1.0F) / hn::IfThenElse(is_there, Splat(1.0F), distance));
   const Vector3 direction = from_light * inverse;
-  auto intensity = AttenuationAt(light, light.light->type == LightType::point
-                                            ? distance
-                                            : Dot(from_light, Splat3(light.forward_ws)), distance);
+  auto intensity = AttenuationAt(
+      light, light.light->type == LightType::point ? distance : Dot(from_light, Splat3(light.forward_ws)),
+      distance);
   if (light.light->type == LightType::spot) {
     const auto cosine = Dot(direction, Splat3(light.forward_ws));
     const auto angular = Saturate(cosine * Splat(light.cone_scale) + Splat(light.cone_offset));
@@ -101,7 +108,8 @@ struct SlidePoint {
   FloatMask is_ahead;
 };
 
-HWY_INLINE SlidePoint FindSlidePoint(const BoundLight& light, const shadow::SurfaceSamples& samples, std::size_t i) {
+HWY_INLINE SlidePoint FindSlidePoint(const BoundLight& light, const shadow::SurfaceSamples& samples,
+                                     std::size_t i) {
   const FloatTag d;
   const auto x = hn::Load(d, samples.x.data() + i), y = hn::Load(d, samples.y.data() + i),
              q = hn::Load(d, samples.q.data() + i);
@@ -117,10 +125,10 @@ HWY_INLINE SlidePoint FindSlidePoint(const BoundLight& light, const shadow::Surf
   Footprint& f = point.footprint;
   f.u = S * inverse;
   f.v = T * inverse;
-  const auto slope = [&](const shadow::ProjectedRow& row, float at, FloatVector dq) HWY_ATTR {
-    return Splat(at) + Splat(row.at_q) * dq;
-  };
-  const auto w_dx = slope(divisor_row, divisor_row.at_x, q_dx), w_dy = slope(divisor_row, divisor_row.at_y, q_dy);
+  const auto slope = [&](const shadow::ProjectedRow& row, float at, FloatVector dq)
+                         HWY_ATTR { return Splat(at) + Splat(row.at_q) * dq; };
+  const auto w_dx = slope(divisor_row, divisor_row.at_x, q_dx),
+             w_dy = slope(divisor_row, divisor_row.at_y, q_dy);
   f.du_dx = (slope(v.x, v.x.at_x, q_dx) - f.u * w_dx) * inverse;
   f.dv_dx = (slope(v.y, v.y.at_x, q_dx) - f.v * w_dx) * inverse;
   f.du_dy = (slope(v.x, v.x.at_y, q_dy) - f.u * w_dy) * inverse;
@@ -129,7 +137,8 @@ HWY_INLINE SlidePoint FindSlidePoint(const BoundLight& light, const shadow::Surf
 }
 
 HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::SurfaceSamples& samples,
-                                  const SlideCoordinates* coordinates, Irradiance& irradiance, std::size_t i) {
+                                  const SlideCoordinates* coordinates, Irradiance& irradiance,
+                                  std::size_t i) {
   const FloatTag d;
   const auto zero = Splat(0.0F), one = Splat(1.0F);
   SlidePoint point = FindSlidePoint(light, samples, i);
@@ -147,8 +156,7 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
   hn::Store(hn::IfThenElse(shines, f.v, nan), d, irradiance.slide_t.data() + i);
   if (hn::AllFalse(d, shines)) return {Splat3(light.color), Splat3(light.forward_ws), shines};
 
-  const Vector3 from_light =
-      Load3(samples.x_ws, samples.y_ws, samples.z_ws, i) - Splat3(light.position_ws);
+  const Vector3 from_light = Load3(samples.x_ws, samples.y_ws, samples.z_ws, i) - Splat3(light.position_ws);
   const auto along = Dot(from_light, Splat3(light.forward_ws));
   Arriving arriving;
   FloatVector intensity;
@@ -156,7 +164,8 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
     const float to_light[3] = {-light.forward_ws[0], -light.forward_ws[1], -light.forward_ws[2]};
     arriving.to_light = Splat3(to_light);
     // Parallel light does not thin out.
-    const bool fades = light.light->attenuation == Attenuation::linear || light.light->attenuation == Attenuation::custom;
+    const bool fades =
+        light.light->attenuation == Attenuation::linear || light.light->attenuation == Attenuation::custom;
     intensity = fades ? AttenuationAt(light, along, along) : one;
   } else {
     const auto distance = hn::Sqrt(Dot(from_light, from_light));
@@ -180,8 +189,9 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
   return arriving;
 }
 
-void find_irradiance(const BoundLight& light, const shadow::SurfaceSamples& samples, const SurfacePoints& points,
-                     const SlideCoordinates* coordinates, Irradiance& irradiance) {
+void find_irradiance(const BoundLight& light, const shadow::SurfaceSamples& samples,
+                     const SurfacePoints& points, const SlideCoordinates* coordinates,
+                     Irradiance& irradiance) {
   const FloatTag d;
   const auto zero = Splat(0.0F);
   for (std::size_t group = 0; group < samples.group_count; ++group) {
@@ -190,9 +200,15 @@ void find_irradiance(const BoundLight& light, const shadow::SurfaceSamples& samp
       const std::size_t i = group * kGroupSize + k;
       Arriving arriving;
       switch (light.light->type) {
-        case LightType::directional: arriving = FromAfar(light); break;
-        case LightType::projector: arriving = FromProjector(light, samples, coordinates, irradiance, i); break;
-        default: arriving = FromPoint(light, Load3(samples.x_ws, samples.y_ws, samples.z_ws, i)); break;
+        case LightType::directional:
+          arriving = FromAfar(light);
+          break;
+        case LightType::projector:
+          arriving = FromProjector(light, samples, coordinates, irradiance, i);
+          break;
+        default:
+          arriving = FromPoint(light, Load3(samples.x_ws, samples.y_ws, samples.z_ws, i));
+          break;
       }
       const Vector3 normal = Load3(points.normal_x_ws, points.normal_y_ws, points.normal_z_ws, i);
       const auto cosine = light.is_papers ? Splat(1.0F) : Dot(normal, arriving.to_light);
@@ -247,7 +263,8 @@ HWY_INLINE Vector3 ReflectPapers(const Incidence& in) { return Multiply(in.base,
 // x^exponent; powers of two by squaring, which is exact to a few roundings.
 HWY_INLINE FloatVector Highlight(FloatVector x, float exponent) {
   const auto whole = static_cast<unsigned>(exponent);
-  if (exponent >= 1 && exponent <= 1024 && static_cast<float>(whole) == exponent && (whole & (whole - 1)) == 0) {
+  if (exponent >= 1 && exponent <= 1024 && static_cast<float>(whole) == exponent &&
+      (whole & (whole - 1)) == 0) {
     auto power = x;
     for (unsigned n = whole; n > 1; n /= 2) power = power * power;
     return power;
@@ -293,7 +310,8 @@ HWY_INLINE Vector3 ReflectPbr(const Incidence& in) {
   const auto t = n_h * n_h * (a2 - one) + one;
   const auto distribution = a2 * inverse_pi / hn::Max(t * t, Splat(1e-12F));
   // G / (4 n·l n·v): Smith's factors without their numerators.
-  const auto smith = [&](FloatVector cosine) HWY_ATTR { return cosine + hn::Sqrt(a2 + (one - a2) * (cosine * cosine)); };
+  const auto smith = [&](FloatVector cosine)
+                         HWY_ATTR { return cosine + hn::Sqrt(a2 + (one - a2) * (cosine * cosine)); };
   const auto visibility = one / (smith(n_l) * smith(n_v));
   const auto m = one - v_h;
   const auto m2 = m * m;
@@ -332,9 +350,15 @@ void reflect(const ReflectionSettings& settings, std::size_t groups, const Surfa
       in.roughness = hn::Load(d, points.roughness.data() + i);
       Vector3 out;
       switch (settings.model) {
-        case ShadingModel::papers: out = ReflectPapers(in); break;
-        case ShadingModel::phong: out = ReflectPhong(in, settings.phong); break;
-        case ShadingModel::pbr: out = ReflectPbr(in); break;
+        case ShadingModel::papers:
+          out = ReflectPapers(in);
+          break;
+        case ShadingModel::phong:
+          out = ReflectPhong(in, settings.phong);
+          break;
+        case ShadingModel::pbr:
+          out = ReflectPbr(in);
+          break;
       }
       out = IfThenElse3(is_lit, out, nothing);
       Store3(add ? Load3(radiance.r, radiance.g, radiance.b, i) + out : out, radiance, i);
