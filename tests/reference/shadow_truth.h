@@ -1,0 +1,66 @@
+// How wrong a shadow is: a technique's mask against rays, measured in texels of the light's shadow map.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "laterna/render.h"
+
+namespace laterna::reference {
+
+/// One point of a surface as a light sees it.
+struct ShadowSample {
+  /// Number of the object; −1: not counted, because there is nothing, or the light does not fall on it.
+  int object = -1;
+  int face = 0;          ///< of the light's maps
+  glm::dvec2 texel{0};   ///< in that map
+  double depth = 0;      ///< metres along the map's axis
+  double footprint = 0;  ///< of a texel at that depth, metres
+};
+
+/// What one map of a light covers, and how finely.
+struct ShadowMapFrame {
+  View view;
+  int width = 0, height = 0;
+};
+std::vector<ShadowMapFrame> shadow_map_frames(const Renderer& renderer, const std::string& light);
+
+/// A technique's picture and a finer one of the truth: `fineness` × `fineness` truth samples per pixel, an odd number,
+/// so that the middle one is the pixel's own.
+struct ShadowMasks {
+  int width = 0, height = 0;
+  int fineness = 1;
+  std::vector<bool> is_lit;           ///< per pixel: α ≥ 0.5
+  std::vector<bool> is_truly_lit;     ///< per truth sample
+  std::vector<ShadowSample> samples;  ///< per truth sample
+};
+
+/// Draws both pictures: with the settings' technique, and ray traced.
+ShadowMasks draw_shadow_masks(const Renderer& renderer, const View& camera, const RenderSettings& settings,
+                              const std::string& light, int fineness);
+
+struct ShadowErrors {
+  int pixels = 0;  ///< counted: those on which the light falls
+  int false_dark = 0, false_lit = 0;
+  /// Of these, those farther than kFarTexels from every true boundary: acne and leaks.
+  int far_false_dark = 0, far_false_lit = 0;
+  /// Largest distance of a false pixel from the nearest true boundary, in texels.
+  double farthest_false_dark = 0, farthest_false_lit = 0;
+  int edge_pixels = 0;      ///< pixels at a true boundary, and all false ones
+  int edge_mismatches = 0;  ///< of these, false by kEdgeTexels or more
+
+  [[nodiscard]] double wrong_share() const { return static_cast<double>(false_dark + false_lit) / pixels; }
+  [[nodiscard]] double edge_share() const { return 1 - static_cast<double>(edge_mismatches) / edge_pixels; }
+};
+inline constexpr double kFarTexels = 2, kEdgeTexels = 1.5;
+
+/// A true boundary lies halfway between neighbouring truth samples of one object of which one is lit. A pixel is
+/// measured against the boundaries of its own object in its own neighbourhood: not those on a far side of the object
+/// that the light sees at the same texel.
+ShadowErrors find_shadow_errors(const ShadowMasks& masks);
+
+/// For messages.
+std::string to_string(const ShadowErrors& errors);
+
+}  // namespace laterna::reference
