@@ -105,6 +105,10 @@ void add_passes(ChannelList& list, const RenderSettings& settings, const frame::
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const std::string& name = frame.lights[i].light->name;
     list.add("pass.2." + name + ".alpha", [i](const TileResult& t) { return &t.visibility[i]; });
+    if (settings.shading == ShadingModel::papers) {
+      list.add_color("pass.2." + name + ".c.", kRgb,
+                     [i](const TileResult& t) -> const TileColor& { return t.pass_illumination[i]; });
+    }
     list.add_color("pass.3." + name + ".c.", kRgb,
                    [i](const TileResult& t) -> const TileColor& { return t.pass_colors[i + 1]; });
   }

@@ -180,6 +180,7 @@ class TileShader::Worker {
     keep_pass(0);
     for (std::size_t light = 0; light < job_.lights.size(); ++light) {
       scan_convert_again();
+      start_illumination_pass(light);
       shade_visible(targets, {false, light, light + 1});
       keep_pass(light + 1);
     }
@@ -201,6 +202,23 @@ class TileShader::Worker {
     }
     result_.pass_colors[pass] = result_.pass_colors[pass - 1];
     add(result_.pass_colors[pass], planes_[pass]);
+  }
+
+  // c_p before pass 2 of a light: ambient light, or what the slides before it have made of it.
+  void start_illumination_pass(std::size_t light) {
+    if (!keeps_illumination()) return;
+    std::vector<TileColor>& passes = result_.pass_illumination;
+    passes.resize(job_.lights.size());
+    if (light > 0) {
+      passes[light] = passes[light - 1];
+    } else {
+      const float* ambient = job_.reflection.ambient;
+      fill(passes[0], ambient[0], ambient[1], ambient[2]);
+    }
+  }
+
+  [[nodiscard]] bool keeps_illumination() const {
+    return job_.wanted.passes && job_.reflection.model == ShadingModel::papers && sample_ == 0;
   }
 
   void fill_from_blocks(std::span<const SurfaceGroups::Block> blocks) {
@@ -447,6 +465,7 @@ class TileShader::Worker {
       scatter(s, irradiance_->slide_s.data(), result_.slide_s[light].data());
       scatter(s, irradiance_->slide_t.data(), result_.slide_t[light].data());
     }
+    if (keeps_illumination()) add_illumination(result_.pass_illumination[light]);
     if (!wanted.lux) return;
     if (!job_.physical_lights.empty()) find_irradiance(job_.physical_lights[light]);
     const Irradiance& e = *irradiance_;
@@ -456,6 +475,17 @@ class TileShader::Worker {
       return (0.2126F * e.r[i] + 0.7152F * e.g[i] + 0.0722F * e.b[i]) * e.cosine[i] * arrival_[i];
     });
     if (!job_.physical_lights.empty()) find_irradiance(job_.lights[light].bound);
+  }
+
+  // Pass 2 of the slide algorithm: c_p ← c_p + c_τ, where light arrives.
+  void add_illumination(TileColor& sum) {
+    const Irradiance& e = *irradiance_;
+    const auto arriving = [&](std::size_t i, float value) {
+      return (e.lit[i / kGroupSize] >> (i % kGroupSize) & 1U) == 0 ? 0.0F : value * arrival_[i];
+    };
+    add_to(sum.r, [&](std::size_t i) { return arriving(i, e.r[i]); });
+    add_to(sum.g, [&](std::size_t i) { return arriving(i, e.g[i]); });
+    add_to(sum.b, [&](std::size_t i) { return arriving(i, e.b[i]); });
   }
 
   template <class Value>

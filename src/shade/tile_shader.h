@@ -62,6 +62,8 @@ struct TileResult {
   std::vector<TilePlane> visibility;  // wanted.visibility: per light
   std::vector<TilePlane> slide_s, slide_t;
   std::vector<TileColor> pass_colors;  // wanted.passes: after ambient, then after each light
+  /// wanted.passes in the papers' model: c_p of the slide algorithm, ambient + Σ slide · α so far, not yet times c.
+  std::vector<TileColor> pass_illumination;
   TilePlane lux;
   TilePlane depth;  // metres along the axis, +infinity where nothing is
   TileColor position, normal, albedo;
