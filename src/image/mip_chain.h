@@ -12,9 +12,8 @@ namespace laterna::image {
 /// How texels are stored. All values that come out of a look-up are linear.
 enum class TexelFormat : std::uint8_t {
   /// Linear colour in [0, 1] as its square root, 11 + 11 + 10 bits: decoding is one multiplication. The error
-  /// is at
-  /// most 1/8 of a step of 8-bit sRGB. What colour comes in 8-bit sRGB is stored so; alpha has a plane of its
-  /// own.
+  /// is at most 0.09 of a step of 8-bit sRGB in red and green, 0.18 in blue. What colour comes in 8-bit sRGB is
+  /// stored so; alpha has a plane of its own.
   colour,
   /// Four 8-bit numbers divided by 255: normals, roughness, …
   data,

@@ -170,6 +170,21 @@ std::vector<ShadowMapFrame> shadow_map_frames(const Renderer& renderer, const st
   return frames;
 }
 
+Scene with_flat_normals(Scene scene) {
+  for (Mesh& mesh : scene.meshes) {
+    for (Primitive& primitive : mesh.primitives) {
+      primitive.normals.clear();
+      primitive.tangents.clear();
+    }
+  }
+  for (Material& material : scene.materials) {
+    material.normal_texture = material.metallic_roughness_texture = material.occlusion_texture = {};
+    material.emissive_texture = {};
+    if (material.alpha_mode == AlphaMode::opaque) material.base_color_texture = {};
+  }
+  return scene;
+}
+
 ShadowMasks draw_shadow_masks(const Renderer& renderer, const View& camera, const RenderSettings& settings,
                               const std::string& light, int fineness) {
   RenderSettings wanted = settings;
@@ -179,7 +194,7 @@ ShadowMasks draw_shadow_masks(const Renderer& renderer, const View& camera, cons
   wanted.height *= fineness;
   wanted.shadows = ShadowTechnique::raytraced;
   wanted.layers = {Layer::visibility, Layer::object, Layer::position, Layer::normal};
-  const LayeredImage truth = render(renderer, camera, wanted);
+  const LayeredImage truth = render(make_renderer(with_flat_normals(renderer.scene())), camera, wanted);
 
   ShadowMasks masks;
   masks.width = settings.width;

@@ -36,7 +36,10 @@ struct ShadowMasks {
   std::vector<ShadowSample> samples;  ///< per truth sample
 };
 
-/// Draws both pictures: with the settings' technique, and ray traced.
+/// The scene with each triangle's own normal, so that a normal layer tells which triangles face the light.
+Scene with_flat_normals(Scene scene);
+
+/// Draws both pictures: with the settings' technique, and ray traced. Pixels whose triangle faces the light count.
 ShadowMasks draw_shadow_masks(const Renderer& renderer, const View& camera, const RenderSettings& settings,
                               const std::string& light, int fineness);
 
