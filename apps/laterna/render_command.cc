@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "laterna/measure.h"
+#include "layer_pictures.h"
 #include "outcome.h"
 #include "progress_line.h"
 #include "scene_options.h"
@@ -43,7 +44,7 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& map) {
 struct RenderOptions {
   SceneOptions scene;
   ViewOptions view;
-  std::string output;
+  std::string output, layer_pictures;
   std::string shadows = "map", shading = "pbr", passes = "single", interpolation = "perspective",
               depth = "auto";
   std::string exposure = "0", background, debug;
@@ -176,8 +177,9 @@ class RenderCommand {
   }
 
   [[nodiscard]] std::string find_output_fault(const RenderSettings& settings) const {
-    if (!settings.layers.empty() && !has_ending(options_.output, ".exr")) {
-      return "--layers: only OpenEXR holds layers: give an output that ends in .exr";
+    if (!settings.layers.empty() && !has_ending(options_.output, ".exr") && options_.layer_pictures.empty()) {
+      return "--layers: only OpenEXR holds layers: give an output that ends in .exr, or --layer-pictures "
+             "FOLDER";
     }
     if (options_.debug.empty() || options_.debug == "depth" || options_.debug.rfind("project-depth:", 0) == 0)
       return {};
@@ -196,10 +198,15 @@ class RenderCommand {
       write.exposure = exposure == 0 ? automatic_exposure(*image) : exposure;
       if (!has_ending(options_.output, ".exr")) advise_exposure(*image, write.exposure);
     }
-    // Formats for the screen hold no coverage unless it was asked for.
-    if (!is_debug && !has_ending(options_.output, ".exr") && options_.background != "transparent")
-      image->channels.resize(3);
     const auto write_start = std::chrono::steady_clock::now();
+    if (!options_.layer_pictures.empty()) {
+      const Result<void> written = write_layer_pictures(*image, options_.layer_pictures, write.exposure);
+      if (!written) return report(written.error());
+    }
+    // Formats for the screen hold neither layers nor, unless it was asked for, coverage.
+    if (!is_debug && !has_ending(options_.output, ".exr")) {
+      image->channels.resize(options_.background == "transparent" ? 4 : 3);
+    }
     if (Result<void> written = write_image(*image, options_.output, write); !written)
       return report(written.error());
     if (options_.json) {
@@ -292,6 +299,8 @@ void declare_render(CLI::App& app, Run& run) {
       ->add_option("--layers", o.layers, "further channels of an .exr, by comma; --list-layers tells which")
       ->delimiter(',')
       ->check(CLI::IsMember(layers));
+  command->add_option("--layer-pictures", o.layer_pictures,
+                      "folder for a PNG of each layer, beside the output");
   command->add_option("--exposure", o.exposure, "stops, or auto; for .png and .hdr")->capture_default_str();
   command->add_option("--background", o.background, "R,G,B in linear light, or transparent (PNG with alpha)");
   command->add_option("--depth", o.depth, "of the output: 8 or 16 bits (PNG), half or float (EXR)")
