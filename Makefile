@@ -1,12 +1,14 @@
 # The short way to everything: each target installs what is missing (scripts/install-deps.sh), configures a preset of
 # CMakePresets.json, builds and runs. JOBS says how many things are done at once.
 JOBS ?= $(shell nproc)
+export JOBS
+export CMAKE_BUILD_PARALLEL_LEVEL := $(JOBS)
 SHELL := /bin/bash
 .SHELLFLAGS := -e -o pipefail -c
 MAKEFLAGS += --no-print-directory
 
 configure = cmake --preset $(1) --log-level=WARNING $(2) >/dev/null
-build = cmake --build build/$(1) --parallel $(JOBS) $(2)
+build = cmake --build build/$(1) $(2)
 # Failures with their output, and the summary; not a line for each test that passed.
 ctest = ctest --test-dir build/$(1) --parallel $(JOBS) --output-on-failure --no-tests=error \
 	| grep --line-buffered -Ev '^ *Start +[0-9]+:|Test +\#[0-9]+: .* (Passed|\*\*\*Skipped) '
@@ -19,8 +21,8 @@ help: ## this list
 demo: ## build, and light the example scenes into out/
 	@scripts/install-deps.sh demo
 	@$(call configure,release)
-	@$(call build,release,--target laterna_cli)
-	@JOBS=$(JOBS) scripts/demo.sh
+	@$(call build,release,--target laterna_cli side_by_side)
+	@scripts/demo.sh
 
 test: ## check the includes, build, run every test
 	@scripts/install-deps.sh build
@@ -33,12 +35,12 @@ bench: ## milliseconds per stage of the demo's scene, and of the kernels
 	@scripts/install-deps.sh demo bench
 	@$(call configure,release,-DLATERNA_BUILD_BENCHMARKS=ON)
 	@$(call build,release)
-	@JOBS=$(JOBS) scripts/bench.sh
+	@scripts/bench.sh
 
 lint: ## clang-format and clang-tidy
 	@scripts/install-deps.sh lint
 	@$(call configure,release)
-	@JOBS=$(JOBS) scripts/lint.sh build/release
+	@scripts/lint.sh build/release
 
 format: ## let clang-format rewrite the sources
 	@scripts/install-deps.sh lint
@@ -66,9 +68,7 @@ test-scalar: ## every test with kernels of one lane only
 
 fuzz: ## each fuzzer for 60 s
 	@scripts/install-deps.sh fuzz
-	@$(call configure,fuzz)
-	@$(call build,fuzz)
-	@JOBS=$(JOBS) scripts/fuzz.sh
+	@scripts/fuzz.sh
 
 install: ## into PREFIX, by default /usr/local
 	@scripts/install-deps.sh build
