@@ -1,11 +1,11 @@
 #include "shade/tile_shader.h"
 
 #include <algorithm>
-#include <cstring>
-#include <limits>
 
 #include "shade/affine_slide.h"
 #include "shade/fragment_list.h"
+#include "shade/sample_batch.h"
+#include "shade/scatter.h"
 #include "shade/surface_groups.h"
 
 namespace laterna::shade {
@@ -17,33 +17,7 @@ using shadow::SurfaceSamples;
 
 namespace {
 
-/// Where one colour per sample goes; SurfaceSamples::pixel is the index.
-struct ColorTarget {
-  float *r, *g, *b;
-};
-
 ColorTarget target_of(TileColor& color) { return {color.r.data(), color.g.data(), color.b.data()}; }
-
-void scatter(const SurfaceSamples& samples, const float* values, float* target) {
-  for (std::size_t group = 0; group < samples.group_count; ++group) {
-    const std::size_t first = group * kGroupSize;
-    const std::uint32_t* pixel = samples.pixel.data() + first;
-    if (samples.active[group] == 0xFFFFU && pixel[15] == pixel[0] + 15) {
-      std::memcpy(target + *pixel, values + first, kGroupSize * sizeof(float));
-      continue;
-    }
-    for (unsigned mask = samples.active[group]; mask != 0; mask &= mask - 1) {
-      const auto i = static_cast<std::size_t>(__builtin_ctz(mask));
-      target[pixel[i]] = values[first + i];
-    }
-  }
-}
-
-void scatter(const SurfaceSamples& samples, const Radiance& radiance, const ColorTarget& target) {
-  scatter(samples, radiance.r.data(), target.r);
-  scatter(samples, radiance.g.data(), target.g);
-  scatter(samples, radiance.b.data(), target.b);
-}
 
 void fill(TileColor& color, float r, float g, float b) {
   color.r.fill(r);
@@ -68,9 +42,6 @@ void scale(TileColor& color, float factor) {
   scale(color.b, factor);
 }
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
 }  // namespace
 
 class TileShader::Worker {
@@ -91,14 +62,9 @@ class TileShader::Worker {
         points_(std::make_unique<SurfacePoints>()),
         irradiance_(std::make_unique<Irradiance>()),
         coordinates_(std::make_unique<SlideCoordinates>()),
-        radiance_(std::make_unique<Radiance>()) {
+        radiance_(std::make_unique<Radiance>()),
+        layers_(*job.frame, *job.view, job.wanted, result_) {
     samples_->ray = job.view->homogeneous_ray();
-    const std::size_t lights = job.lights.size();
-    if (job.wanted.visibility) result_.visibility.resize(lights);
-    if (job.wanted.slide_uv) {
-      result_.slide_s.resize(lights);
-      result_.slide_t.resize(lights);
-    }
   }
 
   const TileResult& shade(int tile_x, int tile_y) {
@@ -140,7 +106,7 @@ class TileShader::Worker {
     if (job_.background != nullptr) {
       fill(planes_[0], job_.background->r, job_.background->g, job_.background->b);
     }
-    start_data_layers();
+    if (sample_ == 0) layers_.start_tile();
     std::vector<ColorTarget> targets;
     for (TileColor& plane : planes_) targets.push_back(target_of(plane));
     if (job_.passes == Passes::multi) {
@@ -153,6 +119,11 @@ class TileShader::Worker {
     accumulate(has_planes);
   }
 
+  [[nodiscard]] TileOrigin origin() const {
+    const SampleOffset& offset = offsets_[sample_];
+    return {*job_.frame, *job_.view, tile_x_, tile_y_, offset.x, offset.y};
+  }
+
   // What of the illumination is found: ambient light, and a range of the lights.
   struct Part {
     bool ambient;
@@ -163,8 +134,9 @@ class TileShader::Worker {
     groups_.collect(ids_);
     for (const SurfaceGroups::Group& group : groups_.groups()) {
       for (std::size_t first = 0; first < group.blocks.size(); first += kMaxGroups) {
-        fill_from_blocks(
-            std::span(group.blocks).subspan(first, std::min(kMaxGroups, group.blocks.size() - first)));
+        const std::size_t count = std::min(kMaxGroups, group.blocks.size() - first);
+        fill_from_blocks(origin(), std::span(group.blocks).subspan(first, count), depth_.data(), ids_.data(),
+                         *samples_);
         shade_batch(job_.frame->surfaces[group.surface], targets, part, true);
       }
     }
@@ -221,67 +193,6 @@ class TileShader::Worker {
     return job_.wanted.passes && job_.reflection.model == ShadingModel::papers && sample_ == 0;
   }
 
-  void fill_from_blocks(std::span<const SurfaceGroups::Block> blocks) {
-    SurfaceSamples& s = *samples_;
-    s.group_count = blocks.size();
-    const int origin_x = tile_x_ * raster::kTileSide - job_.view->origin_x;
-    const int origin_y = tile_y_ * raster::kTileSide - job_.view->origin_y;
-    for (std::size_t group = 0; group < blocks.size(); ++group) {
-      const std::size_t block = blocks[group].block;
-      const std::size_t first = group * kGroupSize;
-      s.active[group] = blocks[group].mask;
-      const float x =
-          static_cast<float>(origin_x + static_cast<int>(block % raster::kBlocksPerSide) * 4) + sample_x();
-      const float y =
-          static_cast<float>(origin_y + static_cast<int>(block / raster::kBlocksPerSide) * 4) + sample_y();
-      for (std::size_t i = 0; i < kGroupSize; ++i) {
-        s.x[first + i] = x + static_cast<float>(i & 3U);
-        s.y[first + i] = y + static_cast<float>(i >> 2U);
-        s.q[first + i] = depth_[block * kGroupSize + i];
-        s.id[first + i] = ids_[block * kGroupSize + i];
-        s.pixel[first + i] = static_cast<std::uint32_t>(block * kGroupSize + i);
-      }
-      repeat_active(group);
-    }
-    bound_position_error();
-  }
-
-  [[nodiscard]] float sample_x() const {
-    return 0.5F + static_cast<float>(offsets_[sample_].x) / raster::kSubpixels;
-  }
-  [[nodiscard]] float sample_y() const {
-    return 0.5F + static_cast<float>(offsets_[sample_].y) / raster::kSubpixels;
-  }
-
-  // Samples that do not count become copies of one that does.
-  void repeat_active(std::size_t group) {
-    SurfaceSamples& s = *samples_;
-    if (s.active[group] == 0xFFFFU) return;
-    const std::size_t first = group * kGroupSize;
-    const std::size_t from = first + static_cast<std::size_t>(__builtin_ctz(s.active[group]));
-    for (std::size_t i = 0; i < kGroupSize; ++i) {
-      if ((s.active[group] >> i & 1U) != 0) continue;
-      s.x[first + i] = s.x[from];
-      s.y[first + i] = s.y[from];
-      s.q[first + i] = s.q[from];
-      s.id[first + i] = s.id[from];
-    }
-  }
-
-  // Half a unit in the last place of the coordinates as stored, and a few of the distance for the ray's arithmetic.
-  void bound_position_error() {
-    SurfaceSamples& s = *samples_;
-    const frame::Bounds& bounds = job_.frame->bounds;
-    float extent = 0;
-    for (int k = 0; k < 3; ++k)
-      extent = std::max({extent, std::abs(bounds.low[k]), std::abs(bounds.high[k])});
-    float q = s.q[0];
-    for (std::size_t i = 1; i < s.group_count * kGroupSize; ++i) q = std::min(q, s.q[i]);
-    const float distance =
-        job_.view->is_orthographic ? static_cast<float>(job_.view->view.projection.far) : 1 / q;
-    s.position_error = 1.2e-7F * extent + 4e-7F * distance;
-  }
-
   // -------------------------------------------------------------------------------------------- one batch of samples
 
   // All samples of samples_, which lie on one surface. One target takes the sum, more take ambient and each light.
@@ -292,7 +203,7 @@ class TileShader::Worker {
     find_surface_points_(source_, surface, *samples_, *points_);
     if (part.ambient) {
       find_ambient_(job_.reflection, surface, groups, *points_, *radiance_);
-      if (is_opaque && sample_ == 0) store_geometry();
+      if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
       if (!sums) scatter(*samples_, *radiance_, targets[0]);
     }
     for (std::size_t light = part.first_light; light < part.end_light; ++light) {
@@ -363,8 +274,8 @@ class TileShader::Worker {
     float* alpha = fragment_values_.data() + count * 3 * planes_.size();
     for (const FragmentList::Run& run : fragments_.by_surface(*job_.frame)) {
       for (std::size_t first = 0; first < run.fragments.size(); first += shadow::kMaxSamples) {
-        fill_from_fragments(
-            run.fragments.subspan(first, std::min(shadow::kMaxSamples, run.fragments.size() - first)));
+        const std::size_t size = std::min(shadow::kMaxSamples, run.fragments.size() - first);
+        fill_from_fragments(origin(), fragments_.list(), run.fragments.subspan(first, size), *samples_);
         shade_batch(job_.frame->surfaces[run.surface], targets, {true, 0, job_.lights.size()}, false);
         scatter(*samples_, points_->alpha.data(), alpha);
       }
@@ -382,30 +293,6 @@ class TileShader::Worker {
     }
   }
 
-  // `fragments`: indices into the fragment list.
-  void fill_from_fragments(std::span<const std::uint32_t> fragments) {
-    SurfaceSamples& s = *samples_;
-    s.group_count = (fragments.size() + kGroupSize - 1) / kGroupSize;
-    std::fill_n(s.active.begin(), s.group_count, std::uint16_t{0});
-    const int origin_x = tile_x_ * raster::kTileSide - job_.view->origin_x;
-    const int origin_y = tile_y_ * raster::kTileSide - job_.view->origin_y;
-    for (std::size_t i = 0; i < fragments.size(); ++i) {
-      const raster::Fragment& fragment = fragments_.list()[fragments[i]];
-      const std::uint32_t block = fragment.pixel / kGroupSize;
-      const int x = static_cast<int>(block % raster::kBlocksPerSide * 4 + (fragment.pixel & 3U));
-      const int y = static_cast<int>(block / raster::kBlocksPerSide * 4 + (fragment.pixel >> 2U & 3U));
-      s.x[i] = static_cast<float>(origin_x + x) + sample_x();
-      s.y[i] = static_cast<float>(origin_y + y) + sample_y();
-      s.q[i] = fragment.reversed_depth;
-      s.id[i] = fragment.id;
-      s.pixel[i] = fragments[i];
-      std::uint16_t& active = s.active[i / kGroupSize];
-      active = static_cast<std::uint16_t>(active | 1U << (i % kGroupSize));
-    }
-    repeat_active(s.group_count - 1);
-    bound_position_error();
-  }
-
   // -------------------------------------------------------------------------------------------- layers
 
   void find_coverage() {
@@ -413,90 +300,20 @@ class TileShader::Worker {
       coverage_[i] = ids_[i] == kNoTriangle && !job_.background ? 0.0F : 1.0F;
   }
 
-  void start_data_layers() {
-    const WantedLayers& wanted = job_.wanted;
-    if (wanted.visibility) {
-      for (std::size_t light = 0; light < job_.lights.size(); ++light) {
-        if (sample_ == 0) result_.visibility[light].fill(0);
-      }
-    }
-    if (wanted.lux && sample_ == 0) result_.lux.fill(0);
-    if (sample_ != 0) return;
-    for (TilePlane& plane : result_.slide_s) plane.fill(kNaN);
-    for (TilePlane& plane : result_.slide_t) plane.fill(kNaN);
-    if (wanted.geometry) {
-      result_.depth.fill(kInfinity);
-      fill(result_.position, 0, 0, 0);
-      fill(result_.normal, 0, 0, 0);
-      result_.object.fill(kNoObject);
-    }
-    if (wanted.albedo) fill(result_.albedo, 0, 0, 0);
-  }
-
-  // Layers of the surface itself, at the sample nearest to the pixel's centre.
-  void store_geometry() {
-    const SurfaceSamples& s = *samples_;
-    if (job_.wanted.albedo) {
-      scatter(s, points_->base_r.data(), result_.albedo.r.data());
-      scatter(s, points_->base_g.data(), result_.albedo.g.data());
-      scatter(s, points_->base_b.data(), result_.albedo.b.data());
-    }
-    if (!job_.wanted.geometry) return;
-    scatter(s, s.x_ws.data(), result_.position.r.data());
-    scatter(s, s.y_ws.data(), result_.position.g.data());
-    scatter(s, s.z_ws.data(), result_.position.b.data());
-    scatter(s, points_->normal_x_ws.data(), result_.normal.r.data());
-    scatter(s, points_->normal_y_ws.data(), result_.normal.g.data());
-    scatter(s, points_->normal_z_ws.data(), result_.normal.b.data());
-    for (std::size_t group = 0; group < s.group_count; ++group) {
-      for (unsigned mask = s.active[group]; mask != 0; mask &= mask - 1) {
-        const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
-        result_.depth[s.pixel[i]] = static_cast<float>(job_.view->distance_from_reversed(s.q[i]));
-        result_.object[s.pixel[i]] = job_.frame->clusters[cluster_of(s.id[i])].object;
-      }
-    }
-  }
-
   void store_light_layers(std::size_t light) {
     const SurfaceSamples& s = *samples_;
     const WantedLayers& wanted = job_.wanted;
-    if (wanted.visibility) add_to(result_.visibility[light], [&](std::size_t i) { return arrival_[i]; });
+    if (wanted.visibility) layers_.add_visibility(light, s, arrival_.data());
     if (wanted.slide_uv && sample_ == 0 && job_.lights[light].bound.light->type == LightType::projector) {
-      scatter(s, irradiance_->slide_s.data(), result_.slide_s[light].data());
-      scatter(s, irradiance_->slide_t.data(), result_.slide_t[light].data());
+      layers_.store_slide_coordinates(light, s, *irradiance_);
     }
-    if (keeps_illumination()) add_illumination(result_.pass_illumination[light]);
+    if (keeps_illumination()) {
+      TileLayers::add_illumination(s, *irradiance_, arrival_.data(), result_.pass_illumination[light]);
+    }
     if (!wanted.lux) return;
     if (!job_.physical_lights.empty()) find_irradiance(job_.physical_lights[light]);
-    const Irradiance& e = *irradiance_;
-    // Rec. 709 luminance of what falls on the surface.
-    add_to(result_.lux, [&](std::size_t i) {
-      if ((e.lit[i / kGroupSize] >> (i % kGroupSize) & 1U) == 0) return 0.0F;
-      return (0.2126F * e.r[i] + 0.7152F * e.g[i] + 0.0722F * e.b[i]) * e.cosine[i] * arrival_[i];
-    });
+    layers_.add_lux(s, *irradiance_, arrival_.data());
     if (!job_.physical_lights.empty()) find_irradiance(job_.lights[light].bound);
-  }
-
-  // Pass 2 of the slide algorithm: c_p ← c_p + c_τ, where light arrives.
-  void add_illumination(TileColor& sum) {
-    const Irradiance& e = *irradiance_;
-    const auto arriving = [&](std::size_t i, float value) {
-      return (e.lit[i / kGroupSize] >> (i % kGroupSize) & 1U) == 0 ? 0.0F : value * arrival_[i];
-    };
-    add_to(sum.r, [&](std::size_t i) { return arriving(i, e.r[i]); });
-    add_to(sum.g, [&](std::size_t i) { return arriving(i, e.g[i]); });
-    add_to(sum.b, [&](std::size_t i) { return arriving(i, e.b[i]); });
-  }
-
-  template <class Value>
-  void add_to(TilePlane& plane, Value value) {
-    const SurfaceSamples& s = *samples_;
-    for (std::size_t group = 0; group < s.group_count; ++group) {
-      for (unsigned mask = s.active[group]; mask != 0; mask &= mask - 1) {
-        const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
-        plane[s.pixel[i]] += value(i);
-      }
-    }
   }
 
   // Adds this sample's planes to the pixel's.
@@ -559,6 +376,7 @@ class TileShader::Worker {
   std::unique_ptr<Radiance> radiance_;
   shadow::SampleArray<float> arrival_;
   TileResult result_;
+  TileLayers layers_;
 };
 
 TileShader::TileShader(const ShaderJob& job) : worker_(std::make_unique<Worker>(job)) {}

@@ -9,6 +9,7 @@
 #include "raster/tile_raster.h"
 #include "shade/illumination.h"
 #include "shade/surface_cut.h"
+#include "shade/tile_layers.h"
 #include "shadow/shadow_technique.h"
 
 namespace laterna::shade {
@@ -18,17 +19,6 @@ struct ShaderLight {
   BoundLight bound;
   /// Null: nothing stands in its way.
   std::unique_ptr<shadow::ShadowTechnique> shadow;
-};
-
-/// What is wanted besides beauty.
-struct WantedLayers {
-  bool lights = false;      // ambient and one per light
-  bool visibility = false;  // per light
-  bool slide_uv = false;    // per projector
-  bool lux = false;
-  bool geometry = false;  // depth, position, normal, object
-  bool albedo = false;
-  bool passes = false;  // Passes::multi: the frame buffer after each pass
 };
 
 /// Everything that is the same for all tiles of a picture.
@@ -47,30 +37,6 @@ struct ShaderJob {
   WantedLayers wanted;
   InstructionSet instruction_set = InstructionSet::scalar;
 };
-
-/// One channel of a tile, in the tile's storage order (raster::index_in_tile).
-struct alignas(64) TilePlane : std::array<float, raster::kTilePixels> {};
-struct TileColor {
-  TilePlane r, g, b;
-};
-
-/// What came out. Planes of layers that were not wanted are empty or unspecified.
-struct TileResult {
-  TileColor beauty;
-  TilePlane alpha;
-  std::vector<TileColor> radiance;    // wanted.lights: ambient, then one per light
-  std::vector<TilePlane> visibility;  // wanted.visibility: per light
-  std::vector<TilePlane> slide_s, slide_t;
-  std::vector<TileColor> pass_colors;  // wanted.passes: after ambient, then after each light
-  /// wanted.passes in the papers' model: c_p of the slide algorithm, ambient + Σ slide · α so far, not yet times c.
-  std::vector<TileColor> pass_illumination;
-  TilePlane lux;
-  TilePlane depth;  // metres along the axis, +infinity where nothing is
-  TileColor position, normal, albedo;
-  std::array<std::uint32_t, raster::kTilePixels>
-      object;  // index of the frame's object, kNoObject where nothing is
-};
-inline constexpr std::uint32_t kNoObject = 0xFFFFFFFFU;
 
 /// Buffers of one worker, reused from tile to tile.
 class TileShader {

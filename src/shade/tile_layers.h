@@ -1,0 +1,77 @@
+// What a tile gives beside beauty: the layers of its surfaces and of each light.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "frame/frame.h"
+#include "raster/tile_raster.h"
+#include "shade/illumination.h"
+#include "shadow/surface_samples.h"
+
+namespace laterna::shade {
+
+/// What is wanted besides beauty.
+struct WantedLayers {
+  bool lights = false;      // ambient and one per light
+  bool visibility = false;  // per light
+  bool slide_uv = false;    // per projector
+  bool lux = false;
+  bool geometry = false;  // depth, position, normal, object
+  bool albedo = false;
+  bool passes = false;  // Passes::multi: the frame buffer after each pass
+};
+
+/// One channel of a tile, in the tile's storage order (raster::index_in_tile).
+struct alignas(64) TilePlane : std::array<float, raster::kTilePixels> {};
+struct TileColor {
+  TilePlane r, g, b;
+};
+
+/// What came out. Planes of layers that were not wanted are empty or unspecified.
+struct TileResult {
+  TileColor beauty;
+  TilePlane alpha;
+  std::vector<TileColor> radiance;    // wanted.lights: ambient, then one per light
+  std::vector<TilePlane> visibility;  // wanted.visibility: per light
+  std::vector<TilePlane> slide_s, slide_t;
+  std::vector<TileColor> pass_colors;  // wanted.passes: after ambient, then after each light
+  /// wanted.passes in the papers' model: c_p of the slide algorithm, ambient + Σ slide · α so far, not yet times c.
+  std::vector<TileColor> pass_illumination;
+  TilePlane lux;
+  TilePlane depth;  // metres along the axis, +infinity where nothing is
+  TileColor position, normal, albedo;
+  std::array<std::uint32_t, raster::kTilePixels>
+      object;  // index of the frame's object, kNoObject where nothing is
+};
+inline constexpr std::uint32_t kNoObject = 0xFFFFFFFFU;
+
+/// Fills in the layers of a tile that are not radiance, batch by batch. Visibility and lux add up over the samples of a
+/// pixel; all others are of the first sample, the one nearest to the pixel's centre.
+class TileLayers {
+ public:
+  TileLayers(const frame::Frame& frame, const raster::RasterView& view, const WantedLayers& wanted,
+             TileResult& result);
+
+  /// Nothing is there yet.
+  void start_tile();
+  /// Depth, position, normal, object, albedo.
+  void store_geometry(const shadow::SurfaceSamples& samples, const SurfacePoints& points);
+  void add_visibility(std::size_t light, const shadow::SurfaceSamples& samples, const float* arrival);
+  void store_slide_coordinates(std::size_t light, const shadow::SurfaceSamples& samples,
+                               const Irradiance& irradiance);
+  /// Illuminance: Rec. 709 luminance of what falls on the surface.
+  void add_lux(const shadow::SurfaceSamples& samples, const Irradiance& irradiance, const float* arrival);
+  /// Pass 2 of the slide algorithm, c_p ← c_p + c_τ where light arrives: onto `sum`.
+  static void add_illumination(const shadow::SurfaceSamples& samples, const Irradiance& irradiance,
+                               const float* arrival, TileColor& sum);
+
+ private:
+  const frame::Frame& frame_;
+  const raster::RasterView& view_;
+  const WantedLayers& wanted_;
+  TileResult& result_;
+};
+
+}  // namespace laterna::shade
