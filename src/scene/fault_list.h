@@ -20,6 +20,8 @@ class FaultList {
   void warning(std::string place, std::string message);
 
   [[nodiscard]] const std::string& file() const { return file_; }
+  /// Whether further errors are only counted: their place and message need not be made.
+  [[nodiscard]] bool is_full() const { return errors_.size() >= kMaxErrors; }
   [[nodiscard]] bool has_errors() const { return error_count_ > 0; }
   [[nodiscard]] std::size_t error_count() const { return error_count_; }
 

@@ -12,6 +12,13 @@ namespace {
 
 constexpr std::string_view kMeshopt = "EXT_meshopt_compression";
 
+// A buffer for programs that cannot decompress. The extension tells others not to load it: its file may be missing.
+bool is_fallback(const JsonValue& buffer) {
+  const JsonValue* extension = find_extension(buffer, kMeshopt);
+  const JsonValue* mark = extension == nullptr ? nullptr : extension->find("fallback");
+  return mark != nullptr && mark->boolean;
+}
+
 }  // namespace
 
 Buffers::Buffers(const JsonDocument& json, const Container& container, std::filesystem::path folder,
@@ -20,6 +27,9 @@ Buffers::Buffers(const JsonDocument& json, const Container& container, std::file
   JsonObject root(json, json.root(), faults);
   if (const JsonValue* list = root.array("buffers")) {
     for (const JsonValue& value : list->children) buffers_.push_back(read_buffer(value, buffers_.size()));
+  }
+  for (const Buffer& buffer : buffers_) {
+    if (buffer.source) most_decoded_bytes_ += buffer.source->size() * kMaxMeshoptRatio;
   }
   if (const JsonValue* list = root.array("bufferViews")) {
     views_.reserve(list->children.size());
@@ -33,6 +43,11 @@ Buffers::Buffer Buffers::read_buffer(const JsonValue& value, std::size_t index) 
   buffer.is_faulty = true;
   object.require("byteLength");
   const std::optional<std::uint64_t> length = object.whole("byteLength", 1);
+  if (is_fallback(value)) {
+    buffer.is_fallback = true;
+    buffer.is_faulty = !length;
+    return buffer;
+  }
   if (object.has("uri")) {
     const std::optional<std::string> uri = object.string("uri");
     if (!uri) return buffer;
@@ -77,7 +92,9 @@ std::optional<ByteSource> Buffers::slice(JsonObject& object) {
   const Buffer& buffer = buffers_[static_cast<std::size_t>(index)];
   if (buffer.is_faulty) return std::nullopt;
   if (!buffer.source) {
-    object.error("buffer", fmt::format("buffers[{}] has no data: neither a uri nor a chunk of a GLB", index));
+    object.error("buffer", fmt::format("buffers[{}] has no data: {}", index,
+                                       buffer.is_fallback ? "it is a fallback for what is read compressed"
+                                                          : "neither a uri nor a chunk of a GLB"));
     return std::nullopt;
   }
   const std::uint64_t size = buffer.source->size();
@@ -141,6 +158,12 @@ bool Buffers::read_compression(const JsonValue& extension, View& view) {
   view.source = std::move(*compressed);
   view.compressed = layout;
   view.size = layout.count * layout.stride;
+  // Several views may name the same compressed bytes; sound files have no reason to.
+  if (view.size > most_decoded_bytes_) {
+    object.error({}, "the compressed views of the file hold more than its buffers can");
+    return false;
+  }
+  most_decoded_bytes_ -= view.size;
   if (view.stride == 0 && layout.mode == MeshoptMode::attributes) view.stride = layout.stride;
   return true;
 }

@@ -38,8 +38,9 @@ class Buffers {
 
  private:
   struct Buffer {
-    std::optional<ByteSource> source;  // none: the buffer stands in for compressed data
-    bool is_faulty = false;            // and has been reported
+    std::optional<ByteSource> source;  // none: a fallback, or nothing that anyone may read
+    bool is_fallback = false;
+    bool is_faulty = false;  // and has been reported
   };
   struct View {
     const JsonValue* json = nullptr;
@@ -62,6 +63,7 @@ class Buffers {
   FaultList& faults_;
   std::vector<Buffer> buffers_;
   std::vector<View> views_;
+  std::uint64_t most_decoded_bytes_ = 0;  // that the remaining compressed views may still hold
 };
 
 }  // namespace laterna::gltf

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/elementary.h"
 #include "scene/gltf_extension.h"
 #include "scene/json_object.h"
@@ -10,7 +12,8 @@ namespace laterna::gltf {
 namespace {
 
 constexpr NumberRange kFieldOfView{0, kPi, true, true};
-constexpr NumberRange kHalfAngle{0, kPi / 2, false, false};
+// Up to a right angle, which in single precision, as exporters write it, is a little more: 1.57079637.
+constexpr NumberRange kHalfAngle{0, 1.5707964, false, false};
 
 // Reads a member that must be there.
 double required_number(JsonObject& object, std::string_view name, const NumberRange& range) {
@@ -47,8 +50,11 @@ void read_spot(const JsonDocument& json, JsonObject& object, Light& light, Fault
   const JsonValue* value = object.object("spot");
   if (value == nullptr) return;
   JsonObject spot(json, *value, faults);
-  light.inner_cone = Angle::radians(spot.number("innerConeAngle", kHalfAngle).value_or(0));
-  light.outer_cone = Angle::radians(spot.number("outerConeAngle", kHalfAngle).value_or(kPi / 4));
+  const auto half_angle = [&](std::string_view name, double fallback) {
+    return Angle::radians(std::min(spot.number(name, kHalfAngle).value_or(fallback), kPi / 2));
+  };
+  light.inner_cone = half_angle("innerConeAngle", 0);
+  light.outer_cone = half_angle("outerConeAngle", kPi / 4);
   if (light.inner_cone > light.outer_cone) {
     spot.error("innerConeAngle", fmt::format("must not exceed outerConeAngle ({}), got {}",
                                              light.outer_cone.in_radians(), light.inner_cone.in_radians()));

@@ -9,6 +9,7 @@
 #include "scene/gltf_extension.h"
 #include "scene/number_scans.h"
 #include "scene/surface_attributes.h"
+#include "scene/vertex_joining.h"
 
 namespace laterna::gltf {
 
@@ -96,10 +97,10 @@ std::optional<Primitive> Meshes::read_primitive(const JsonValue& value, const st
   Primitive primitive;
   if (!open_source(object, source) || !read_attributes(source, primitive)) return std::nullopt;
   primitive.material = materials_.use(object.index("material", materials_.count(), "materials"));
-  if (!read_triangles(object, source, *topology, primitive) || !apply_morph(object, weights, primitive) ||
-      !fits_limits(object, primitive) || faults_.error_count() != errors_before) {
+  if (!read_triangles(object, source, *topology, primitive) || !apply_morph(object, weights, primitive))
     return std::nullopt;
-  }
+  drop_unused_vertices(primitive);
+  if (!fits_limits(object, primitive) || faults_.error_count() != errors_before) return std::nullopt;
   const Material* material = primitive.material < 0 ? nullptr : &materials_[primitive.material];
   complete_attributes(primitive, material, std::nullopt, json_.place(value), faults_);
   return primitive;

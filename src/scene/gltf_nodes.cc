@@ -12,8 +12,6 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::uint64_t kMaxInstances = std::uint64_t{1} << 24;  // of one node: 2 GB of matrices
-
 struct Hierarchy {
   std::vector<const JsonValue*> values;
   std::vector<std::vector<int>> children;
@@ -157,11 +155,11 @@ std::optional<glm::dmat4> explicit_matrix(JsonObject& object) {
 // One attribute of the instancing extension; `fallback` for every instance when it is absent.
 template <class Vector>
 bool read_instance_attribute(const JsonDocument& json, JsonObject& attributes, std::string_view name,
-                             Accessors& accessors, std::vector<Vector>& values) {
+                             Accessors& accessors, std::uint64_t room, std::vector<Vector>& values) {
   const int accessor = attributes.index(name, accessors.size(), "accessors");
   if (accessor < 0) return !attributes.has(name);
-  if (accessors.element_count(accessor) > kMaxInstances) {
-    attributes.error(name, fmt::format("more than {} instances", kMaxInstances));
+  if (accessors.element_count(accessor) > room) {
+    attributes.error(name, fmt::format("the file shows more than {} instances", kMaxInstances));
     return false;
   }
   auto read = accessors.read<Vector>(accessor, json.place(attributes.value(), name));
@@ -212,7 +210,7 @@ glm::dmat4 node_matrix(const JsonDocument& json, const JsonValue& node, FaultLis
 }
 
 std::vector<glm::dmat4> node_instances(const JsonDocument& json, const JsonValue& node, Accessors& accessors,
-                                       FaultList& faults) {
+                                       std::uint64_t room, FaultList& faults) {
   const JsonValue* extension = find_extension(node, "EXT_mesh_gpu_instancing");
   if (extension == nullptr) return {};
   JsonObject object(json, *extension, faults);
@@ -222,9 +220,9 @@ std::vector<glm::dmat4> node_instances(const JsonDocument& json, const JsonValue
   JsonObject attributes(json, *list, faults);
   std::vector<glm::vec3> translations, scales;
   std::vector<glm::vec4> rotations;
-  if (!read_instance_attribute(json, attributes, "TRANSLATION", accessors, translations) ||
-      !read_instance_attribute(json, attributes, "ROTATION", accessors, rotations) ||
-      !read_instance_attribute(json, attributes, "SCALE", accessors, scales)) {
+  if (!read_instance_attribute(json, attributes, "TRANSLATION", accessors, room, translations) ||
+      !read_instance_attribute(json, attributes, "ROTATION", accessors, room, rotations) ||
+      !read_instance_attribute(json, attributes, "SCALE", accessors, room, scales)) {
     return {};
   }
   const std::size_t count = std::max({translations.size(), rotations.size(), scales.size()});

@@ -26,8 +26,11 @@ std::vector<PlacedNode> placed_nodes(const JsonDocument& json, FaultList& faults
 /// parent_from_node out of a matrix or translation, rotation and scale.
 glm::dmat4 node_matrix(const JsonDocument& json, const JsonValue& node, FaultList& faults);
 
-/// EXT_mesh_gpu_instancing; empty without it.
+/// Instances in one file: 2 GB of matrices.
+inline constexpr std::uint64_t kMaxInstances = std::uint64_t{1} << 24;
+
+/// EXT_mesh_gpu_instancing; empty without it. More than `room` instances are an error.
 std::vector<glm::dmat4> node_instances(const JsonDocument& json, const JsonValue& node, Accessors& accessors,
-                                       FaultList& faults);
+                                       std::uint64_t room, FaultList& faults);
 
 }  // namespace laterna::gltf

@@ -40,7 +40,9 @@ class SceneBuilder {
     node.parent_from_node = node_matrix(json_, *placed.json, faults_);
     if (const int mesh = object.index("mesh", meshes_.count(), "meshes"); mesh >= 0) {
       node.mesh = meshes_.use(mesh, object.array("weights"));
-      node.node_from_instance = node_instances(json_, *placed.json, accessors_, faults_);
+      node.node_from_instance =
+          node_instances(json_, *placed.json, accessors_, kMaxInstances - instance_count_, faults_);
+      instance_count_ += node.node_from_instance.size();
     }
     const std::size_t camera_count = cameras_ == nullptr ? 0 : cameras_->children.size();
     if (const int camera = object.index("camera", camera_count, "cameras"); camera >= 0) {
@@ -91,6 +93,7 @@ class SceneBuilder {
   const JsonValue* cameras_ = nullptr;
   const JsonValue* lights_ = nullptr;
   UniqueNames camera_names_, light_names_;
+  std::uint64_t instance_count_ = 0;
   Scene scene_;
 };
 

@@ -132,56 +132,66 @@ void Textures::apply_transform(const JsonValue& extension, Texture& texture, std
 
 int Textures::picture_of(int image, const std::string& used_by) {
   int& picture = picture_of_image_[static_cast<std::size_t>(image)];
-  if (picture != kNotYetRead) return picture;
-  picture = -1;
-  if (std::optional<Picture> made = make_picture(*images_[static_cast<std::size_t>(image)], used_by)) {
-    picture = static_cast<int>(pictures_.size());
-    pictures_.push_back(std::move(*made));
-  }
+  if (picture == kNotYetRead) picture = make_picture(*images_[static_cast<std::size_t>(image)], used_by);
   return picture;
 }
 
-std::optional<Picture> Textures::make_picture(const JsonValue& value, const std::string& used_by) {
+int Textures::keep(Picture picture) {
+  pictures_.push_back(std::move(picture));
+  return static_cast<int>(pictures_.size()) - 1;
+}
+
+int Textures::make_picture(const JsonValue& value, const std::string& used_by) {
   JsonObject image(json_, value, faults_);
   if (image.has("uri") == image.has("bufferView")) {
     image.error({}, "expected either a uri or a bufferView");
-    return std::nullopt;
+    return -1;
   }
-  if (image.has("uri")) return picture_from_uri(image, used_by);
-  const int view = image.index("bufferView", buffers_.view_count(), "bufferViews");
-  if (view < 0) return std::nullopt;
-  std::optional<OwnedSpan> bytes = buffers_.read(view);
-  if (!bytes) return std::nullopt;
-  Picture picture;
-  picture.name = fmt::format("{}: {}", faults_.file(), json_.path(value));
-  picture.encoded_owner = std::move(bytes->owner);
-  picture.encoded = bytes->bytes;
-  return picture;
+  return image.has("uri") ? picture_from_uri(image, used_by) : picture_from_view(image);
 }
 
-std::optional<Picture> Textures::picture_from_uri(JsonObject& image, const std::string& used_by) {
+int Textures::picture_from_view(JsonObject& image) {
+  const int view = image.index("bufferView", buffers_.view_count(), "bufferViews");
+  if (view < 0) return -1;
+  const auto [known, is_new] = picture_of_view_.try_emplace(view, -1);
+  if (!is_new) return known->second;
+  std::optional<OwnedSpan> bytes = buffers_.read(view);
+  if (!bytes) return -1;
+  Picture picture;
+  picture.name = fmt::format("{}: {}", faults_.file(), json_.path(image.value()));
+  picture.encoded_owner = std::move(bytes->owner);
+  picture.encoded = bytes->bytes;
+  known->second = keep(std::move(picture));
+  return known->second;
+}
+
+int Textures::picture_from_uri(JsonObject& image, const std::string& used_by) {
   const std::optional<std::string> uri = image.string("uri");
-  if (!uri) return std::nullopt;
+  if (!uri) return -1;
   Picture picture;
   if (!is_data_uri(*uri)) {
     auto path = resolve_file(folder_, *uri);
     if (!path) {
       image.error("uri", fmt::format("{}; used by {}", path.error(), used_by));
-      return std::nullopt;
+      return -1;
     }
     picture.file = std::move(*path);
     picture.name = picture.file.string();
-    return picture;
+    return keep(std::move(picture));
   }
   auto decoded = decode_data_uri(*uri);
   if (!decoded) {
     image.error("uri", fmt::format("{}; used by {}", decoded.error(), used_by));
-    return std::nullopt;
+    return -1;
+  }
+  if (decoded->empty()) {
+    image.error("uri", fmt::format("the data URI is empty; used by {}", used_by));
+    return -1;
   }
   picture.name = fmt::format("{}: {}", faults_.file(), json_.path(image.value()));
   picture.encoded_owner = std::make_shared<const std::vector<std::byte>>(std::move(*decoded));
   picture.encoded = *picture.encoded_owner;
-  return picture;
+  return keep(std::move(picture));
 }
 
 }  // namespace laterna::gltf

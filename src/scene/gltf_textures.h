@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,8 +33,10 @@ class Textures {
   Sampler parse_sampler(const JsonValue& value);
   Source parse_texture(const JsonValue& value);
   int picture_of(int image, const std::string& used_by);
-  std::optional<Picture> make_picture(const JsonValue& image, const std::string& used_by);
-  std::optional<Picture> picture_from_uri(JsonObject& image, const std::string& used_by);
+  int make_picture(const JsonValue& image, const std::string& used_by);
+  int picture_from_view(JsonObject& image);
+  int picture_from_uri(JsonObject& image, const std::string& used_by);
+  int keep(Picture picture);
   void apply_transform(const JsonValue& extension, Texture& texture, std::uint64_t& uv_set);
 
   static constexpr int kNotYetRead = -2;
@@ -44,7 +47,8 @@ class Textures {
   FaultList& faults_;
   std::vector<Sampler> samplers_;
   std::vector<const JsonValue*> images_;
-  std::vector<int> picture_of_image_;  // kNotYetRead, −1 (faulty) or an index into pictures_
+  std::vector<int> picture_of_image_;   // kNotYetRead, −1 (faulty) or an index into pictures_
+  std::map<int, int> picture_of_view_;  // images that share a buffer view share its picture
   std::vector<Source> textures_;
   std::vector<Picture> pictures_;
 };

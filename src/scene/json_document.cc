@@ -269,14 +269,20 @@ Result<JsonDocument> JsonDocument::parse(std::string_view text, const std::strin
   return document;
 }
 
+JsonDocument::JsonDocument(std::string_view text, Place place) : text_(text), place_(place) {
+  if (place != Place::line_and_path) return;
+  for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1))
+    line_ends_.push_back(at);
+}
+
 std::string JsonDocument::path(const JsonValue& value) const { return path_of(value); }
 
 std::size_t JsonDocument::line(const JsonValue& value) const {
   std::size_t end = std::min(value.offset, text_.size());
   // The parser reads one character past a number to see that it ends, and that may be the end of its line.
   if (value.kind == JsonValue::Kind::number && value.key.empty() && end > 0) --end;
-  return 1 + static_cast<std::size_t>(
-                 std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+  return 1 + static_cast<std::size_t>(std::lower_bound(line_ends_.begin(), line_ends_.end(), end) -
+                                      line_ends_.begin());
 }
 
 std::string JsonDocument::place(const JsonValue& value) const {

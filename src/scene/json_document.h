@@ -51,7 +51,6 @@ class JsonDocument {
 
   [[nodiscard]] const JsonValue& root() const { return *root_; }
   [[nodiscard]] std::string path(const JsonValue& value) const;
-  [[nodiscard]] std::size_t line(const JsonValue& value) const;
 
   /// How diagnostics name the value: "lights[0].lux" or "line 7: lights[0].lux".
   [[nodiscard]] std::string place(const JsonValue& value) const;
@@ -59,9 +58,11 @@ class JsonDocument {
   [[nodiscard]] std::string place(const JsonValue& object, std::string_view member) const;
 
  private:
-  JsonDocument(std::string_view text, Place place) : text_(text), place_(place) {}
+  JsonDocument(std::string_view text, Place place);
+  [[nodiscard]] std::size_t line(const JsonValue& value) const;
 
   std::string_view text_;
+  std::vector<std::size_t> line_ends_;  // offsets of the newlines; for Place::line_and_path only
   Place place_;
   std::unique_ptr<JsonValue> root_;
 };

@@ -158,6 +158,10 @@ void JsonObject::report_unknown_members(std::string_view what) {
   for (const JsonValue& member : value_.children) {
     if (!value_.is_object()) return;
     if (std::find(asked_for_.begin(), asked_for_.end(), member.key) != asked_for_.end()) continue;
+    if (faults_.is_full()) {
+      faults_.error({}, {});
+      continue;
+    }
     std::vector<std::string_view> unused;
     for (const std::string_view known : asked_for_) {
       if (!has(known)) unused.push_back(known);

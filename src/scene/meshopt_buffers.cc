@@ -10,9 +10,6 @@
 namespace laterna::gltf {
 namespace {
 
-// The vertex codec's densest block spends 4 bytes on 256 bytes of each plane: 64 to 1. Doubled, for its tail.
-constexpr std::uint64_t kMaxVertexRatio = 128;
-
 template <class T>
 T load(const std::byte* from) {
   T value;
@@ -127,7 +124,7 @@ std::string find_fault(const MeshoptLayout& layout, std::size_t compressed_size)
   std::uint64_t most = 0;
   switch (layout.mode) {
     case MeshoptMode::attributes:
-      most = size * kMaxVertexRatio / layout.stride;
+      most = size * kMaxMeshoptRatio / layout.stride;
       break;
     case MeshoptMode::triangles:
       most = size * 3;

@@ -21,6 +21,10 @@ struct MeshoptLayout {
   std::uint64_t stride = 0;  ///< bytes per element once decoded
 };
 
+/// Decoded bytes per compressed byte, at most. The vertex codec's densest block spends 4 bytes on 256 bytes of each
+/// plane: 64 to 1; doubled, for its tail. The index codecs stay far below.
+inline constexpr std::uint64_t kMaxMeshoptRatio = 128;
+
 /// Why the layout is not one the extension allows, or that many elements cannot come from `compressed_size`
 /// bytes; an empty string when it is fine. Nothing is allocated before this has passed.
 std::string find_fault(const MeshoptLayout& layout, std::size_t compressed_size);

@@ -5,13 +5,13 @@
 #include "base/file_io.h"
 #include "laterna/image.h"
 #include "scene/rig_pose.h"
+#include "scene/rig_ranges.h"
 #include "scene/spelling.h"
 #include "scene/uri.h"
 
 namespace laterna {
 namespace {
 
-constexpr NumberRange kHalfAngle{0, 90, false, false};
 constexpr std::uint64_t kMaxShadowResolution = 16384;
 
 std::string_view name_of(LightType type) {
@@ -68,7 +68,7 @@ class LightReader {
     light_.name = object_.string("name").value_or("");
     if (object_.has("name") && light_.name.empty()) object_.error("name", "is empty");
     light_.enabled = object_.boolean("enabled").value_or(true);
-    if (const auto color = object_.numbers<3>("color", kNotNegative)) {
+    if (const auto color = object_.numbers<3>("color", kAmountOfLight)) {
       light_.color = glm::vec3((*color)[0], (*color)[1], (*color)[2]);
     }
     read_place();
@@ -79,7 +79,7 @@ class LightReader {
   void read_place() {
     if (light_.type == LightType::point) {
       object_.require("position");
-      const auto position = object_.numbers<3>("position", {-kMaxCoordinate, kMaxCoordinate, false, false});
+      const auto position = object_.numbers<3>("position", kCoordinate);
       if (position) world_from_light_[3] = glm::dvec4((*position)[0], (*position)[1], (*position)[2], 1);
     } else if (const std::optional<glm::dmat4> pose = read_pose(object_)) {
       world_from_light_ = *pose;
@@ -103,12 +103,12 @@ class LightReader {
       object_.error(name, fmt::format("the brightness of a {} is given in {}", name_of(light_.type), right));
     }
     if (is_sun) {
-      light_.intensity = object_.number("lux", kNotNegative).value_or(1);
+      light_.intensity = object_.number("lux", kAmountOfLight).value_or(1);
       return;
     }
-    light_.intensity = object_.number("candela", kNotNegative).value_or(1);
+    light_.intensity = object_.number("candela", kAmountOfLight).value_or(1);
     if (!is_projector) return;
-    light_.lumens = object_.number("lumens", kNotNegative);
+    light_.lumens = object_.number("lumens", kAmountOfLight);
     if (light_.lumens && object_.has("candela"))
       object_.error("lumens", "give either candela or lumens, not both");
   }
@@ -133,13 +133,18 @@ class LightReader {
     settings.resolution = static_cast<int>(shadow.whole("resolution", 1, kMaxShadowResolution).value_or(0));
     settings.filter =
         shadow
-            .choice<ShadowFilter>("filter", {{"nearest", ShadowFilter::nearest},
+            .choice<ShadowFilter>("filter", {{"refined", ShadowFilter::refined},
+                                             {"nearest", ShadowFilter::nearest},
                                              {"bilinear", ShadowFilter::bilinear},
                                              {"percentage_closer", ShadowFilter::percentage_closer}})
             .value_or(settings.filter);
-    settings.kernel = static_cast<int>(shadow.whole("kernel", 2, 9).value_or(3));
-    settings.constant_bias = shadow.number("constant_bias", {-kMaxCoordinate, kMaxCoordinate, false, false});
-    settings.slope_bias = shadow.number("slope_bias", {-kMaxCoordinate, kMaxCoordinate, false, false});
+    if (const std::optional<std::uint64_t> kernel = shadow.whole("kernel", 2, 9)) {
+      settings.kernel = static_cast<int>(*kernel);
+      if (settings.filter != ShadowFilter::percentage_closer)
+        shadow.error("kernel", "has an effect only with \"filter\": \"percentage_closer\" beside it");
+    }
+    settings.constant_bias = shadow.number("constant_bias", kCoordinate);
+    settings.slope_bias = shadow.number("slope_bias", kCoordinate);
     settings.caster_faces = shadow
                                 .choice<CasterFaces>("caster_faces", {{"both", CasterFaces::both},
                                                                       {"back_only", CasterFaces::back_only}})
@@ -206,6 +211,8 @@ class LightReader {
                          .choice<BeamProfile>("profile", {{"flat_field", BeamProfile::flat_field},
                                                           {"uniform_candela", BeamProfile::uniform_candela}})
                          .value_or(light_.profile);
+    if (light_.slide_is_intensity && object_.has("profile"))
+      object_.error("profile", "has no effect: an intensity_map says itself how the beam spreads");
     light_.outside = object_
                          .choice<Outside>("outside", {{"black", Outside::black},
                                                       {"clamp", Outside::clamp},

@@ -8,12 +8,11 @@
 #include <glm/geometric.hpp>
 
 #include "base/elementary.h"
+#include "scene/rig_ranges.h"
 
 namespace laterna {
 namespace {
 
-constexpr NumberRange kCoordinate{-kMaxCoordinate, kMaxCoordinate, false, false};
-constexpr NumberRange kFieldOfView{0, 180, true, true};
 constexpr double kDefaultNear = 0.1;
 constexpr std::array<std::string_view, 4> kOpenings = {"yfov_deg", "hfov_deg", "intrinsics", "orthographic"};
 

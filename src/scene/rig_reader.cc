@@ -7,6 +7,7 @@
 #include "scene/json_object.h"
 #include "scene/rig_lights.h"
 #include "scene/rig_pose.h"
+#include "scene/rig_ranges.h"
 #include "scene/spelling.h"
 #include "scene/unique_names.h"
 
@@ -40,18 +41,18 @@ class RigReader {
  private:
   void read_settings(JsonObject& root) {
     Scene& scene = rig_.scene;
-    if (const auto ambient = root.numbers<3>("ambient", kNotNegative)) {
+    if (const auto ambient = root.numbers<3>("ambient", kAmountOfLight)) {
       scene.ambient = glm::vec3((*ambient)[0], (*ambient)[1], (*ambient)[2]);
       scene.ambient_is_set = true;
     }
-    if (const auto background = root.numbers<3>("background", kNotNegative)) {
+    if (const auto background = root.numbers<3>("background", kAmountOfLight)) {
       scene.background = glm::vec3((*background)[0], (*background)[1], (*background)[2]);
     }
     if (const JsonValue* value = root.object("shading")) {
       JsonObject shading(json_, *value, faults_);
       PhongHighlight highlight;
       highlight.specular =
-          static_cast<float>(shading.number("specular", kNotNegative).value_or(highlight.specular));
+          static_cast<float>(shading.number("specular", kAmountOfLight).value_or(highlight.specular));
       highlight.shininess =
           static_cast<float>(shading.number("shininess", kPositive).value_or(highlight.shininess));
       shading.report_unknown_members("shading");

@@ -254,6 +254,14 @@ void Validator::check_light(const Light& light, const std::string& place) {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
   check_color(place + ".color", light.color, kEndless);
   check_number(place + ".intensity", light.intensity, 0, kEndless);
+  // Radiance is light per area and angle: it needs room above the intensity itself.
+  constexpr double kMaxProduct = 1e30;
+  const double brightest = std::max({light.color.x, light.color.y, light.color.z});
+  if (std::isfinite(light.intensity) && std::isfinite(brightest) &&
+      light.intensity * brightest > kMaxProduct) {
+    fault(place + ".intensity",
+          fmt::format("{} times the colour's {} is more than {}", light.intensity, brightest, kMaxProduct));
+  }
   if (light.lumens) {
     check_number(place + ".lumens", *light.lumens, 0, kEndless);
     if (light.type != LightType::projector)

@@ -13,6 +13,15 @@ void keep(std::vector<T>& values, const std::vector<std::uint32_t>& kept) {
   if (values.empty()) return;
   for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];  // kept[i] ≥ i
   values.resize(kept.size());
+  values.shrink_to_fit();
+}
+
+void keep_vertices(Primitive& primitive, const std::vector<std::uint32_t>& kept) {
+  keep(primitive.positions, kept);
+  keep(primitive.normals, kept);
+  keep(primitive.tangents, kept);
+  keep(primitive.colors, kept);
+  for (auto& uv : primitive.uv) keep(uv, kept);
 }
 
 template <class T>
@@ -44,10 +53,22 @@ void join_identical_vertices(Primitive& primitive) {
   } else {
     for (std::uint32_t& index : primitive.indices) index = new_index[index];
   }
-  keep(primitive.positions, kept);
-  keep(primitive.normals, kept);
-  keep(primitive.colors, kept);
-  for (auto& uv : primitive.uv) keep(uv, kept);
+  keep_vertices(primitive, kept);
+}
+
+void drop_unused_vertices(Primitive& primitive) {
+  // With as many corners as vertices it is not worth a look.
+  if (primitive.indices.empty() || primitive.indices.size() >= primitive.positions.size()) return;
+  constexpr std::uint32_t kUnused = 0xFFFFFFFF;
+  std::vector<std::uint32_t> new_index(primitive.positions.size(), kUnused), kept;
+  for (const std::uint32_t index : primitive.indices) new_index[index] = index;
+  for (std::uint32_t& index : new_index) {
+    if (index == kUnused) continue;
+    kept.push_back(index);
+    index = static_cast<std::uint32_t>(kept.size() - 1);
+  }
+  for (std::uint32_t& index : primitive.indices) index = new_index[index];
+  keep_vertices(primitive, kept);
 }
 
 }  // namespace laterna

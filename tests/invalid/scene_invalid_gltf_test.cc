@@ -364,6 +364,26 @@ const Case kGltfCases[] = {
        R"({"EXT_meshopt_compression": {"buffer": 0, "byteLength": 36, "byteStride": 12, "count": 3, "mode": "ATTRIBUTES"}})"}},
      "f.gltf: bufferViews[0].extensions.EXT_meshopt_compression: the compressed data are corrupt "
      "(meshoptimizer: -1)"},
+    {"MeshoptTheSameBytesAgainAndAgain",
+     {{"/bufferViews/0/extensions",
+       R"({"EXT_meshopt_compression": {"buffer": 0, "byteLength": 100, "byteStride": 12, "count": 900, "mode": "ATTRIBUTES"}})"},
+      {"/bufferViews/0/byteLength", "10800"},
+      {"/bufferViews/1/extensions",
+       R"({"EXT_meshopt_compression": {"buffer": 0, "byteLength": 100, "byteStride": 12, "count": 900, "mode": "ATTRIBUTES"}})"},
+      {"/bufferViews/1/byteLength", "10800"}},
+     "f.gltf: bufferViews[1].extensions.EXT_meshopt_compression: the compressed views of the file hold more "
+     "than its "
+     "buffers can\n"
+     "f.gltf: bufferViews[0].extensions.EXT_meshopt_compression: the compressed data are corrupt "
+     "(meshoptimizer: -1)"},
+    {"MeshoptFallbackReadAsIfItHeldData",
+     {{"/buffers/0/extensions", R"({"EXT_meshopt_compression": {"fallback": true}})"},
+      {"/bufferViews/3", ""},
+      {"/bufferViews/2", ""},
+      {"/bufferViews/1", ""},
+      {"/accessors", "[]"},
+      {"/nodes/0/mesh", ""}},
+     "f.gltf: bufferViews[0].buffer: buffers[0] has no data: it is a fallback for what is read compressed"},
     {"MeshoptBeyondItsBuffer",
      {{"/bufferViews/0/extensions",
        R"({"EXT_meshopt_compression": {"buffer": 0, "byteOffset": 100, "byteLength": 36, "byteStride": 12, "count": 3, "mode": "ATTRIBUTES"}})"}},
@@ -406,6 +426,10 @@ const Case kGltfCases[] = {
     {"ImageViewOutOfRange",
      {{"/images/0", "{\"bufferView\": 4}"}},
      "f.gltf: images[0].bufferView: refers to bufferViews[4], but the last is bufferViews[3]"},
+    {"ImageEmpty",
+     {{"/images/0/uri", "\"data:image/png;base64,\""}},
+     "f.gltf: images[0].uri: the data URI is empty; used by "
+     "materials[0].pbrMetallicRoughness.baseColorTexture (\"wood\")"},
     {"AlphaMode",
      {{"/materials/0/alphaMode", "\"BLENDED\""}},
      "f.gltf: materials[0].alphaMode: expected one of \"OPAQUE\", \"MASK\", \"BLEND\", got \"BLENDED\" (did "
@@ -502,6 +526,12 @@ const Case kGltfCases[] = {
       {"/accessors/4", R"({"count": 2, "type": "VEC4", "componentType": 5126})"}},
      "f.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.ROTATION: instance 0: expected a unit "
      "quaternion, got one without length"},
+    {"InstancesWithoutEnd",
+     {{"/nodes/0/extensions", R"({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 4}}})"},
+      {"/accessors/4", R"({"count": 16777217, "type": "VEC3", "componentType": 5126})"}},
+     "f.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION: the file shows more than "
+     "16777216 "
+     "instances"},
     {"InstanceAttributeType",
      {{"/nodes/0/extensions", R"({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 2}}})"}},
      "f.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION: expected VEC3, got "
@@ -552,7 +582,11 @@ const Case kGltfCases[] = {
     {"LightConeWide",
      {{"/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle", "1.6"}},
      "f.gltf: extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle: expected a number from 0 to "
-     "1.5707963267948966, got 1.6"},
+     "1.5707964, got 1.6"},
+    {"LightBlinding",
+     {{"/extensions/KHR_lights_punctual/lights/0/intensity", "1e200"},
+      {"/extensions/KHR_lights_punctual/lights/0/color", "[0, 2, 1]"}},
+     "f.gltf: lights[0].intensity: 1e+200 times the colour's 2 is more than 1e+30"},
 
     // Several at once.
     {"Several",

@@ -58,13 +58,13 @@ const RigCase kRigCases[] = {
     {"AmbientTooShort", "{\"ambient\": [0, 0]}",
      "r.json: line 1: ambient: expected an array of 3 numbers, got an array of 2"},
     {"AmbientNegative", "{\"ambient\": [0,\n -1, 0]}",
-     "r.json: line 2: ambient[1]: expected a number of at least 0, got -1"},
+     "r.json: line 2: ambient[1]: expected a number from 0 to 1000000000000, got -1"},
     {"AmbientText", "{\"ambient\": \"white\"}",
      "r.json: line 1: ambient: expected an array of 3 numbers, got \"white\""},
     {"BackgroundOfText", "{\"background\": [0, \"0\", 0]}",
-     "r.json: line 1: background[1]: expected a number of at least 0, got \"0\""},
+     "r.json: line 1: background[1]: expected a number from 0 to 1000000000000, got \"0\""},
     {"Shading", "{\"shading\": {\"specular\": -1, \"shininess\": 0, \"glow\": 1}}",
-     "r.json: line 1: shading.specular: expected a number of at least 0, got -1\n"
+     "r.json: line 1: shading.specular: expected a number from 0 to 1000000000000, got -1\n"
      "r.json: line 1: shading.shininess: expected a number greater than 0, got 0\n"
      "r.json: line 1: shading.glow: shading has no key \"glow\""},
     {"CamerasNotAnArray", "{\"cameras\": {}}", "r.json: line 1: cameras: expected an array, got an object"},
@@ -170,10 +170,10 @@ const RigCase kRigCases[] = {
      "\"lumens\": 5, \"candela\": 5}]}",
      "r.json: line 1: lights[0].lumens: give either candela or lumens, not both"},
     {"CandelaNegative", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"candela\": -5}]}",
-     "r.json: line 1: lights[0].candela: expected a number of at least 0, got -5"},
+     "r.json: line 1: lights[0].candela: expected a number from 0 to 1000000000000, got -5"},
     {"ColourNegative",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"color\": [1, 1, -0.5]}]}",
-     "r.json: line 1: lights[0].color[2]: expected a number of at least 0, got -0.5"},
+     "r.json: line 1: lights[0].color[2]: expected a number from 0 to 1000000000000, got -0.5"},
     {"RangeZero", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"range\": 0}]}",
      "r.json: line 1: lights[0].range: expected a number greater than 0, got 0"},
     {"AttenuationNeedsRange",
@@ -210,8 +210,35 @@ const RigCase kRigCases[] = {
     {"SlideUrl",
      "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
      "\"slide\": \"https://example.org/a.png\"}]}",
-     "r.json: line 1: lights[0].slide: \"https://example.org/a.png\" is a URL or has a drive letter; only "
-     "files given relative to the scene are read"},
+     "r.json: line 1: lights[0].slide: \"https://example.org/a.png\" not found (tried "
+     "\"https://example.org/a.png\")"},
+    {"SlideEmpty",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"slide\": \"\"}]}",
+     "r.json: line 1: lights[0].slide: the file name is empty"},
+    {"SlideWithNul",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"slide\": \"slide.png\\u0000\"}]}",
+     "r.json: line 1: lights[0].slide: the file name holds a NUL character"},
+    {"SlideIsAFolder",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"slide\": \".\"}]}",
+     "r.json: line 1: lights[0].slide: \".\" not found (tried \".\")"},
+    {"SlideNotAPictureWhereItsShapeIsNeeded",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"hfov_deg\": 30, "
+     "\"slide\": \"slide.png\"}]}",
+     "r.json: line 1: lights[0].slide: slide.png: expected a PNG, JPEG, GIF, BMP, TGA, PNM, PFM, Radiance "
+     "HDR or "
+     "OpenEXR picture, found none of these"},
+    {"ProfileOfAMap",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"intensity_map\": \"slide.png\",\n\"profile\": \"flat_field\"}]}",
+     "r.json: line 2: lights[0].profile: has no effect: an intensity_map says itself how the beam spreads"},
+    {"ProjectorWithoutFrustum",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0]}]}",
+     "r.json: line 1: lights[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"intrinsics\", \"orthographic\""},
+    {"CandelaHuge", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"candela\": 1e300}]}",
+     "r.json: line 1: lights[0].candela: expected a number from 0 to 1000000000000, got 1e+300"},
     {"SlideAndMap",
      "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
      "\"slide\": \"slide.png\", \"intensity_map\": \"slide.png\"}]}",
@@ -234,6 +261,17 @@ const RigCase kRigCases[] = {
      "r.json: line 1: lights[0].shadow.kernel: expected a whole number from 2 to 9, got 10\n"
      "r.json: line 2: lights[0].shadow.outside: expected one of \"lit\", \"shadowed\", got \"dark\"\n"
      "r.json: line 2: lights[0].shadow.bias: a shadow has no key \"bias\" (did you mean \"constant_bias\"?)"},
+    {"ShadowFilterMisspelt",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"filter\": "
+     "\"percentage-closer\", "
+     "\"caster_faces\": \"front\"}}]}",
+     "r.json: line 1: lights[0].shadow.filter: expected one of \"refined\", \"nearest\", \"bilinear\", "
+     "\"percentage_closer\", got \"percentage-closer\" (did you mean \"percentage_closer\"?)\n"
+     "r.json: line 1: lights[0].shadow.caster_faces: expected one of \"both\", \"back_only\", got \"front\""},
+    {"ShadowKernelOfAnotherFilter",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"kernel\": 5}}]}",
+     "r.json: line 1: lights[0].shadow.kernel: has an effect only with \"filter\": \"percentage_closer\" "
+     "beside it"},
     {"ShadowResolutionFraction",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"resolution\": 1024.5}}]}",
      "r.json: line 1: lights[0].shadow.resolution: expected a whole number from 1 to 16384, got 1024.5"},

@@ -139,6 +139,12 @@ const SceneCase kSceneCases[] = {
      "lights[0].color[2]: expected a finite number of at least 0, got -1"},
     {"LightIntensity", [](Scene& s) { s.lights[0].intensity = kEndless; },
      "lights[0].intensity: expected a finite number of at least 0, got inf"},
+    {"LightBlinding",
+     [](Scene& s) {
+       s.lights[0].intensity = 1e20;
+       s.lights[0].color = {0, 0, 1e20F};
+     },
+     "lights[0].intensity: 1e+20 times the colour's 1.0000000200408773e+20 is more than 1e+30"},
     {"LightRange", [](Scene& s) { s.lights[0].range = 0; },
      "lights[0].range: expected a number greater than 0, got 0"},
     {"LightRangeNan", [](Scene& s) { s.lights[0].range = std::nan(""); },

@@ -147,15 +147,15 @@ TEST(GltfAccessors, SparseIndices) {
   GltfBuilder builder;
   builder.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3");
   builder.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
-  builder.accessor<std::uint16_t>({0, 1, 2}, "SCALAR", kU16);
-  const int index_view = builder.view(bytes_of<std::uint8_t>({2}));
+  builder.accessor<std::uint16_t>({0, 1, 2, 2, 1, 0}, "SCALAR", kU16);
+  const int index_view = builder.view(bytes_of<std::uint8_t>({5}));
   const int value_view = builder.view(bytes_of<std::uint16_t>({3}));
   builder.document["accessors"][2]["sparse"] = {
       {"count", 1},
       {"indices", {{"bufferView", index_view}, {"componentType", kU8}}},
       {"values", {{"bufferView", value_view}}}};
   builder.show({{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 2}});
-  EXPECT_EQ(only_primitive(builder.load(folder)).indices, (std::vector<std::uint32_t>{0, 1, 3}));
+  EXPECT_EQ(only_primitive(builder.load(folder)).indices, (std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3}));
 }
 
 TEST(GltfAccessors, ColoursOfEveryTypeAndWidth) {

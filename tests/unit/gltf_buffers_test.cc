@@ -205,6 +205,20 @@ TEST(GltfMeshopt, AttributesAndTriangles) {
   }
 }
 
+// The extension tells programs that can decompress not to load what others fall back on.
+TEST(GltfMeshopt, FallbackBuffersAreNotLookedFor) {
+  const TemporaryFolder folder;
+  GltfBuilder builder = triangle_builder();
+  const std::vector<std::byte> compressed = encode_vertices(builder.binary, 12);
+  compress_view(builder, 0, compressed, 3, 12, "ATTRIBUTES", "");
+  builder.document["buffers"] =
+      json::array({{{"byteLength", builder.binary.size()}},
+                   {{"byteLength", 36},
+                    {"uri", "nowhere.bin"},
+                    {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}});
+  EXPECT_EQ(only_primitive(load_or_fail({folder.write("scene.glb", builder.glb())})).positions, kTriangle);
+}
+
 TEST(GltfMeshopt, IndexSequences) {
   const std::vector<unsigned> strip = {0, 1, 2, 3};
   GltfBuilder builder;
@@ -243,7 +257,7 @@ TEST(GltfMeshopt, OctahedralFilterGivesUnitNormals) {
                               {"type", "VEC3"},
                               {"normalized", true}});
     std::vector<std::uint16_t> indices;
-    for (std::uint16_t i = 0; i < 498; ++i) indices.push_back(i);
+    for (std::uint16_t i = 0; i < 501; ++i) indices.push_back(i % 500);  // all are used, and kept
     builder.accessor(indices, "SCALAR", kU16);
     builder.show({{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 2}});
     compress_view(builder, view, encode_vertices(filtered, stride), normals.size(), stride, "ATTRIBUTES",

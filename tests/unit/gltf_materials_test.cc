@@ -130,6 +130,17 @@ TEST(GltfMaterials, EachFileIsOnePictureHoweverOftenItIsNamed) {
   EXPECT_EQ(scene.materials[0].occlusion_texture.picture, 0);
 }
 
+TEST(GltfMaterials, EachBufferViewIsOnePictureHoweverOftenItIsNamed) {
+  const TemporaryFolder folder;
+  GltfBuilder builder = textured_builder(folder);
+  const int view = builder.view({std::byte{1}, std::byte{2}});
+  for (json& image : builder.document["images"]) image = {{"bufferView", view}, {"mimeType", "image/png"}};
+  const Scene scene = builder.load(folder);
+  ASSERT_EQ(scene.pictures.size(), 1U);
+  EXPECT_EQ(scene.pictures[0].encoded.size(), 2U);
+  EXPECT_EQ(scene.materials[0].occlusion_texture.picture, 0);
+}
+
 TEST(GltfMaterials, UnusedMaterialsAndPicturesAreNotLookedFor) {
   const TemporaryFolder folder;
   GltfBuilder builder = surface_builder(json::object());

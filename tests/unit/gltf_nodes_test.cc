@@ -238,6 +238,15 @@ TEST(GltfLights, SpotCones) {
   EXPECT_EQ(narrow.intensity, 7);
 }
 
+TEST(GltfLights, ARightAngleInSinglePrecisionIsOne) {
+  const TemporaryFolder folder;
+  GltfBuilder builder;
+  builder.document["extensions"]["KHR_lights_punctual"]["lights"] =
+      json::array({{{"type", "spot"}, {"spot", {{"outerConeAngle", 1.5707963705062866}}}}});
+  builder.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  EXPECT_EQ(builder.load(folder).lights.at(0).outer_cone, Angle::degrees(90));
+}
+
 TEST(GltfLights, DirectionalIsInLuxAndFitted) {
   const Light light = load_light({{"type", "directional"}, {"intensity", 10000}});
   EXPECT_EQ(light.type, LightType::directional);

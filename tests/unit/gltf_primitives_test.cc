@@ -157,6 +157,29 @@ TEST(GltfPrimitives, ANodesWeightsComeBeforeItsMeshs) {
   EXPECT_EQ(scene.nodes[0].mesh, scene.nodes[2].mesh);
 }
 
+// Exporters let many primitives share one list of vertices: each keeps only its own.
+TEST(GltfPrimitives, VerticesThatNoTriangleUsesAreDropped) {
+  const TemporaryFolder folder;
+  GltfBuilder builder;
+  std::vector<float> positions, normals, coordinates;
+  for (int i = 0; i < 10; ++i) {
+    positions.insert(positions.end(), {static_cast<float>(i), static_cast<float>(i * i), 0});
+    normals.insert(normals.end(), {0, 0, 1});
+    coordinates.insert(coordinates.end(), {static_cast<float>(i), 7});
+  }
+  builder.floats(positions, "VEC3");
+  builder.floats(normals, "VEC3");
+  builder.floats(coordinates, "VEC2");
+  builder.accessor<std::uint8_t>({9, 3, 5, 5, 3, 9}, "SCALAR", kU8);
+  builder.show({{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_1", 2}}}, {"indices", 3}});
+  const Scene scene = builder.load(folder);
+  const Primitive& primitive = only_primitive(scene);
+  EXPECT_EQ(primitive.positions, (std::vector<glm::vec3>{{3, 9, 0}, {5, 25, 0}, {9, 81, 0}}));
+  EXPECT_EQ(primitive.normals.size(), 3U);
+  EXPECT_EQ(primitive.uv[1], (std::vector<glm::vec2>{{3, 7}, {5, 7}, {9, 7}}));
+  EXPECT_EQ(primitive.indices, (std::vector<std::uint32_t>{2, 0, 1, 1, 0, 2}));
+}
+
 // -------------------------------------------------------------------------------------
 // KHR_draco_mesh_compression
 

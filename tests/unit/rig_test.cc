@@ -194,13 +194,25 @@ TEST(Rig, Projectors) {
   EXPECT_EQ(full.outside, Outside::mirror);
   EXPECT_EQ(full.attenuation, Attenuation::none);
 
-  EXPECT_TRUE(load(R"("yfov_deg": 30, "intensity_map": "slides/cat%20picture.png")").slide_is_intensity);
+  EXPECT_TRUE(load(R"("yfov_deg": 30, "intensity_map": "slides/cat picture.png")").slide_is_intensity);
   EXPECT_FALSE(load(R"("intrinsics": {"fx": 1, "fy": 1, "cx": 0, "cy": 0, "width": 2, "height": 1})")
                    .aspect_from_slide);
   EXPECT_TRUE(load(R"("orthographic": {"height": 2}, "far": 9)").projection.is_orthographic);
   const Light square = load(R"("hfov_deg": 90)");  // neither slide nor aspect: as wide as high
   EXPECT_NEAR(square.projection.top, 1, 1e-15);
   EXPECT_FALSE(square.aspect_from_slide);
+}
+
+// A rig is typed by its user: it may name any file, and names are not decoded as in a URL.
+TEST(Rig, SlidesMayLieAnywhere) {
+  const TemporaryFolder folder;
+  const auto slide = folder.write("elsewhere/100%20 cats.png", "x");
+  const Scene scene = load_rig(
+      R"({"lights": [{"type": "projector", "position": [0, 5, 0], "target": [0, 0, 0], "yfov_deg": 30, "slide": ")" +
+          slide.string() + "\"}]}",
+      folder);
+  ASSERT_EQ(scene.pictures.size(), 1U);
+  EXPECT_EQ(scene.pictures[0].file, slide);
 }
 
 TEST(Rig, Shadows) {
@@ -221,6 +233,13 @@ TEST(Rig, Shadows) {
   EXPECT_EQ(full.slope_bias, 1.5);
   EXPECT_EQ(full.caster_faces, CasterFaces::back_only);
   EXPECT_FALSE(full.outside_is_lit);
+  EXPECT_EQ(ShadowSettings{}.filter, ShadowFilter::refined);
+  EXPECT_EQ(shadow_of(R"({"filter": "refined"})").filter, ShadowFilter::refined);
+  EXPECT_EQ(shadow_of(R"({"filter": "nearest"})").filter, ShadowFilter::nearest);
+  EXPECT_EQ(shadow_of(R"({"filter": "bilinear"})").filter, ShadowFilter::bilinear);
+  EXPECT_EQ(shadow_of(R"({"filter": "percentage_closer"})").kernel, 3);
+  EXPECT_EQ(shadow_of(R"({"technique": "map"})").technique, ShadowTechnique::map);
+  EXPECT_EQ(shadow_of(R"({"technique": "none"})").technique, ShadowTechnique::none);
 }
 
 TEST(Rig, Settings) {

@@ -36,11 +36,11 @@ TEST(SceneJson, EveryValueKnowsItsPathAndLine) {
 
 TEST(SceneJson, NumbersAtTheEndOfALineBelongToThatLine) {
   const std::string text = "[1\n,2\n\n,3]";
-  const Result<JsonDocument> json = JsonDocument::parse(text, "f", JsonDocument::Place::path);
+  const Result<JsonDocument> json = JsonDocument::parse(text, "f", JsonDocument::Place::line_and_path);
   ASSERT_TRUE(json.has_value());
-  EXPECT_EQ(json->line(json->root().children[0]), 1U);
-  EXPECT_EQ(json->line(json->root().children[1]), 2U);
-  EXPECT_EQ(json->line(json->root().children[2]), 4U);
+  EXPECT_EQ(json->place(json->root().children[0]), "line 1: [0]");
+  EXPECT_EQ(json->place(json->root().children[1]), "line 2: [1]");
+  EXPECT_EQ(json->place(json->root().children[2]), "line 4: [2]");
 }
 
 TEST(SceneJson, WhatIsNoJsonIsRefusedWithItsLine) {
