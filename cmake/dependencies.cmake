@@ -20,8 +20,3 @@ find_package(CLI11 REQUIRED)
 find_path(HWY_INCLUDE_DIR hwy/highway.h REQUIRED)
 add_library(hwy_headers INTERFACE)
 target_include_directories(hwy_headers SYSTEM INTERFACE ${HWY_INCLUDE_DIR})
-
-# Header-only: compiled into one file of ours with the options we need.
-find_path(STB_INCLUDE_DIR stb/stb_image.h REQUIRED)
-add_library(stb_headers INTERFACE)
-target_include_directories(stb_headers SYSTEM INTERFACE ${STB_INCLUDE_DIR})
