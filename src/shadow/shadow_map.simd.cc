@@ -174,6 +174,15 @@ class MapReader {
   }
 
   [[nodiscard]] HWY_INLINE FloatVector Outside() const { return Splat(test_.outside_is_lit ? 1.0F : 0.0F); }
+  // Where the map has anything to say. What lies outside is lit texel by texel unless told otherwise.
+  [[nodiscard]] HWY_INLINE FloatMask Covers(const Receiver& r) const {
+    if (test_.outside_is_lit) return r.is_seen;
+    const auto zero = Splat(0.0F);
+    const auto width = Splat(static_cast<float>(map_.width())),
+               height = Splat(static_cast<float>(map_.height()));
+    const auto is_inside = hn::And(hn::And(r.x >= zero, r.x <= width), hn::And(r.y >= zero, r.y <= height));
+    return hn::And(r.is_seen, is_inside);
+  }
   [[nodiscard]] const BoundDepthMap& bound() const { return bound_; }
   [[nodiscard]] const DepthMap& map() const { return map_; }
 
@@ -388,7 +397,7 @@ HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const MapReader
     dark = dark + hn::IfThenElseZero(hn::And(gaps.is_far[k], blocking.is_small), weight);
   }
   const auto alpha = hn::IfThenZeroElse(blocked, one - dark);
-  return hn::IfThenElse(r.is_seen, alpha, reader.Outside());
+  return hn::IfThenElse(reader.Covers(r), alpha, reader.Outside());
 }
 
 // ---------------------------------------------------------------------------------------------- samples
@@ -415,8 +424,9 @@ HWY_INLINE Quick QuickArrival(const MapReader& reader, const Points& points) {
       hn::And(hn::And(gaps.is_lit[0], gaps.is_lit[1]), hn::And(gaps.is_lit[2], gaps.is_lit[3]));
   const auto all_far =
       hn::And(hn::And(gaps.is_far[0], gaps.is_far[1]), hn::And(gaps.is_far[2], gaps.is_far[3]));
-  return {hn::IfThenElse(r.is_seen, hn::IfThenElseZero(all_lit, Splat(1.0F)), reader.Outside()),
-          hn::AndNot(hn::Or(all_lit, all_far), r.is_seen)};
+  const auto is_covered = reader.Covers(r);
+  return {hn::IfThenElse(is_covered, hn::IfThenElseZero(all_lit, Splat(1.0F)), reader.Outside()),
+          hn::AndNot(hn::Or(all_lit, all_far), is_covered)};
 }
 
 HWY_INLINE Slopes FindSlopes(const ShadowMapTest& test, const Points& p, FloatVector dq_dx,
