@@ -4,7 +4,27 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "raster/triangle_bins.h"
+
 namespace laterna::shadow {
+namespace {
+
+// The ray's own triangle is left out; its neighbours must not be met at the very start by rounding alone, nor because
+// corners were snapped: at its rim a triangle may have been given samples that lie on its plane a little beside it.
+float nearest_blocker(const SurfaceSamples& s, std::size_t i) {
+  const raster::RasterView::Ray& ray = s.ray;
+  // The point is the homogeneous ray's first three coordinates over its fourth.
+  const double h = ray.ray_0.w + ray.ray_x.w * s.x[i] + ray.ray_y.w * s.y[i] + ray.q_term.w * s.q[i];
+  const glm::dvec3 position(s.x_ws[i], s.y_ws[i], s.z_ws[i]);
+  const auto pixel_side = [&](const glm::dvec4& along, float dq) {
+    const glm::dvec4 step = along + ray.q_term * static_cast<double>(dq);
+    return glm::length(glm::dvec3(step) - position * step.w) / h;
+  };
+  const double pixel = pixel_side(ray.ray_x, s.dq_dx[i]) + pixel_side(ray.ray_y, s.dq_dy[i]);
+  return 2 * s.position_error + static_cast<float>(pixel / raster::kSubpixels);
+}
+
+}  // namespace
 
 struct RayTracedShadow::Ray {
   glm::vec3 direction_ws;
@@ -38,13 +58,12 @@ RayTracedShadow::Ray RayTracedShadow::ray_to_light(const glm::dvec3& position_ws
 
 void RayTracedShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                                    float* alpha) const {
-  // The ray's own triangle is left out; its neighbours must not be met at the very start by rounding alone.
-  const float near = 2 * samples.position_error;
   for (std::size_t group = 0; group < samples.group_count; ++group) {
     for (unsigned mask = wanted[group]; mask != 0; mask &= mask - 1) {
       const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
       const glm::vec3 position(samples.x_ws[i], samples.y_ws[i], samples.z_ws[i]);
       const Ray ray = ray_to_light(glm::dvec3(position));
+      const float near = nearest_blocker(samples, i);
       const bool is_blocked = ray.length > near &&
                               scene_->is_blocked(position, ray.direction_ws, near, ray.length, samples.id[i]);
       alpha[i] = is_blocked ? 0.0F : 1.0F;

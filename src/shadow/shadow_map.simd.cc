@@ -275,6 +275,9 @@ HWY_INLINE void ForEachMap(const ShadowMapTest& test, const Vector3& position, V
 // this many texels' change along the plane, of the receiver's.
 constexpr float kNearTexels = 1.0F;
 constexpr float kNearSlopes = 0.5F;
+// On a plane as steep as this many texel footprints per texel, what the plane's depth would be at a texel's centre says
+// little about the sample: it may pass in front of what stands before the sample itself.
+constexpr float kSteepSlope = 16.0F;
 // A triangle that the light sees smaller than this many texels may have neighbours that no texel saw.
 constexpr float kSmallTexels = 2.0F;
 
@@ -288,12 +291,15 @@ HWY_INLINE FourGaps FindGaps(const MapReader& reader, const Receiver& r, const Q
   const auto neighbourhood =
       Splat(kNearTexels) * r.texel + Splat(kNearSlopes) * (hn::Abs(r.q_dx) + hn::Abs(r.q_dy));
   const auto near = r.rounding + hn::IfThenElseZero(r.faces_light, neighbourhood);
+  const auto is_steep =
+      hn::And(r.faces_light, hn::Abs(r.q_dx) + hn::Abs(r.q_dy) > Splat(kSteepSlope) * r.texel);
   FourGaps gaps;
   for (int k = 0; k < 4; ++k) {
     const int i = k & 1, j = k >> 1;
     const auto [stored, tested] = reader.DepthsAt(r, quad.column[i] + quad.row[j], quad.dx[i], quad.dy[j]);
     const auto is_outside = hn::Not(hn::And(quad.column_in[i], quad.row_in[j]));
-    gaps.is_lit[k] = hn::Or(is_outside, IsLit(stored, tested, r.rounding));
+    const auto is_behind = hn::AndNot(IsLit(stored, r.q, r.rounding), is_steep);
+    gaps.is_lit[k] = hn::Or(is_outside, hn::AndNot(is_behind, IsLit(stored, tested, r.rounding)));
     gaps.is_far[k] = hn::AndNot(is_outside, hn::Not(IsLit(stored, tested, near)));
   }
   return gaps;
@@ -442,7 +448,10 @@ HWY_INLINE Slopes FindSlopes(const ShadowMapTest& test, const Points& p, FloatVe
   return {dq_dx, dq_dy, slope(test.ray_x, dq_dx), slope(test.ray_y, dq_dy)};
 }
 
-// The centre and four places about it, no two in one row or column. The centre casts the deciding vote.
+// The centre and four places about it, no two in one row or column. The centre casts the deciding vote: of two opposite
+// places a straight edge leaves at least one on the centre's side, so it usually has the majority anyway. Where it has
+// not, because what is in the way is thinner than the pixel or the surface is seen edge-on and the places lie far
+// apart on it, α stays on the centre's side of one half: α ≥ 1/2 is the hard shadow at the pixel's centre.
 constexpr float kPlaces[5][2] = {
     {0, 0}, {-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}};
 
@@ -450,7 +459,9 @@ constexpr float kPlaces[5][2] = {
 HWY_INLINE FloatVector ArrivalAt(const ShadowMapTest& test, const SurfaceSamples& s, const Points& centre,
                                  const Slopes& slopes, IntVector own, int place) {
   Points points = centre;
-  auto near = Splat(2 * s.position_error);
+  // Corners were snapped: at its rim a triangle may have been given samples that lie on its plane a little beside it.
+  const auto pixel = hn::Sqrt(Dot(slopes.dp_dx, slopes.dp_dx)) + hn::Sqrt(Dot(slopes.dp_dy, slopes.dp_dy));
+  auto near = Splat(2 * s.position_error) + pixel * Splat(1.0F / raster::kSubpixels);
   if (test.positions > 1) {
     const auto dx = Splat(kPlaces[place][0]), dy = Splat(kPlaces[place][1]);
     const Vector3 step = slopes.dp_dx * dx + slopes.dp_dy * dy;
@@ -497,9 +508,16 @@ class RefinementList {
                              {read(s.normal_x_ws), read(s.normal_y_ws), read(s.normal_z_ws)}};
       const Slopes slopes = FindSlopes(test, points, read(s.dq_dx), read(s.dq_dy));
       const auto own = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(s.id.data()), index);
-      auto result = Splat(0.0F);
-      for (int i = 0; i < test.positions; ++i) result = result + ArrivalAt(test, s, points, slopes, own, i);
-      result = result * Splat(1.0F / static_cast<float>(test.positions));
+      const auto centre = ArrivalAt(test, s, points, slopes, own, 0);
+      auto result = centre;
+      if (test.positions > 1) {
+        for (int i = 1; i < test.positions; ++i) result = result + ArrivalAt(test, s, points, slopes, own, i);
+        const auto share = Splat(1.0F / static_cast<float>(test.positions));
+        const auto majority = Splat(static_cast<float>(test.positions / 2 + 1)) * share;
+        const auto is_lit = centre >= Splat(0.5F);
+        result = hn::IfThenElse(is_lit, hn::Max(result * share, majority),
+                                hn::Min(result * share, Splat(1.0F) - majority));
+      }
       alignas(64) float values[kLanes];
       hn::Store(result, d, values);
       for (std::size_t k = 0; k < kLanes && first + k < count_; ++k) {

@@ -10,6 +10,7 @@
 
 #include "reference/picture_probes.h"
 #include "reference/shapes.h"
+#include "trace/ray_scene.h"
 
 namespace laterna::reference {
 namespace {
@@ -37,6 +38,24 @@ Light_ws light_of(const Renderer& renderer, const std::string& name) {
                            (light.type == LightType::projector && light.projection.is_orthographic);
   return {is_parallel, -pose.forward_ws(), pose.position_ws};
 }
+
+// The scene for rays of the tests' own.
+class TruthRays {
+ public:
+  explicit TruthRays(const Scene& scene)
+      : owned_(make_frame(with_flat_normals(scene))), rays_(owned_.frame) {}
+  [[nodiscard]] bool is_blocked(const glm::dvec3& from, const Light_ws& light, double near) const {
+    const glm::dvec3 to_light = light.is_parallel ? light.direction : light.position - from;
+    const float length = light.is_parallel ? std::numeric_limits<float>::infinity()
+                                           : static_cast<float>(glm::length(to_light));
+    return rays_.is_blocked(glm::vec3(from), glm::vec3(glm::normalize(to_light)), static_cast<float>(near),
+                            length, kNoTriangle);
+  }
+
+ private:
+  OwnedFrame owned_;
+  trace::RayScene rays_;
+};
 
 // Where a point lies in the first map that sees it.
 bool locate(const std::vector<ShadowMapFrame>& maps, const glm::dvec3& position_ws, ShadowSample& sample) {
@@ -69,9 +88,10 @@ class BoundaryIndex {
     cells_[key(a.object, a.face, cell(boundary.texel.x), cell(boundary.texel.y))].push_back(boundary);
   }
 
-  // Texels from the sample to the nearest boundary whose depth is within `depth_per_texel` of the sample's, for each
-  // texel and one to spare; infinity beyond kReach.
-  [[nodiscard]] double distance_from(const ShadowSample& sample, double depth_per_texel) const {
+  // Texels from the sample to the nearest boundary that its surface, going on as it is or twice as steep, would meet;
+  // infinity beyond kReach.
+  [[nodiscard]] double distance_from(const ShadowSample& sample) const {
+    const double depth_per_texel = 2 * (sample.depth_slope + sample.footprint);
     double nearest = std::numeric_limits<double>::infinity();
     const int x = cell(sample.texel.x);
     const int y = cell(sample.texel.y);
@@ -122,19 +142,6 @@ class TruthGrid {
            glm::distance(a.texel, b.texel) <= most_texels;
   }
 
-  // Change of depth per texel about a sample, at least a texel's footprint.
-  [[nodiscard]] double depth_per_texel(int x, int y) const {
-    const ShadowSample& s = sample(x, y);
-    double slope = s.footprint;
-    for (const auto& [dx, dy] : kAround) {
-      if (!are_neighbours(x, y, x + dx, y + dy, kMostBetweenNeighbours)) continue;
-      const ShadowSample& n = sample(x + dx, y + dy);
-      const double texels = glm::distance(n.texel, s.texel);
-      if (texels > 1e-6) slope = std::max(slope, std::abs(n.depth - s.depth) / texels);
-    }
-    return slope;
-  }
-
   [[nodiscard]] BoundaryIndex boundaries() const {
     BoundaryIndex index;
     for (int y = 0; y < height_; ++y) {
@@ -157,6 +164,41 @@ class TruthGrid {
   const ShadowMasks& masks_;
   int width_, height_;
 };
+
+// The point of a sample's plane that the light sees some texels beside it.
+glm::dvec3 beside(const ShadowMapFrame& map, const ShadowSample& sample, glm::dvec2 texels) {
+  const glm::dmat4 world_from_image = glm::inverse(map.view.image_from_world());
+  const glm::dvec2 st = (sample.texel + texels) / glm::dvec2(map.width, map.height);
+  const auto at_depth = [&](double depth) {
+    const glm::dvec4 q = world_from_image * glm::dvec4(st, depth, 1);
+    return glm::dvec3(q) / q.w;
+  };
+  const glm::dvec3 start = at_depth(0);
+  const glm::dvec3 direction = at_depth(0.5) - start;
+  const glm::dvec3 normal(sample.normal_ws);
+  return start +
+         direction * (glm::dot(normal, glm::dvec3(sample.position_ws) - start) / glm::dot(normal, direction));
+}
+
+// Texels from a sample to the nearest point of its plane whose light is not the sample's, up to kFarTexels.
+double probed_distance(const ShadowMasks& masks, const ShadowSample& sample, bool is_lit) {
+  // A point beside a lit sample may lie under the surface, where that bends, and must not be called dark for it.
+  const double near = 2 * sample.footprint + (is_lit ? sample.depth_slope : 0);
+  const double infinity = std::numeric_limits<double>::infinity();
+  if (masks.is_blocked(glm::dvec3(sample.position_ws), near) == is_lit)
+    return infinity;  // what blocks it is near
+  constexpr int kDirections = 16;
+  constexpr double kStep = 0.25;
+  for (double radius = kStep; radius <= kFarTexels; radius += kStep) {
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle = 2 * std::acos(-1.0) * i / kDirections;
+      const glm::dvec2 texels = radius * glm::dvec2(std::cos(angle), std::sin(angle));
+      const glm::dvec3 point = beside(masks.maps[static_cast<std::size_t>(sample.face)], sample, texels);
+      if (masks.is_blocked(point, near) == is_lit) return radius;
+    }
+  }
+  return infinity;
+}
 
 }  // namespace
 
@@ -188,7 +230,7 @@ Scene with_flat_normals(Scene scene) {
 ShadowMasks draw_shadow_masks(const Renderer& renderer, const View& camera, const RenderSettings& settings,
                               const std::string& light, int fineness) {
   RenderSettings wanted = settings;
-  wanted.layers = {Layer::visibility, Layer::object};
+  wanted.layers = {Layer::visibility, Layer::object, Layer::position};
   const LayeredImage technique = render(renderer, camera, wanted);
   wanted.width *= fineness;
   wanted.height *= fineness;
@@ -205,29 +247,40 @@ ShadowMasks draw_shadow_masks(const Renderer& renderer, const View& camera, cons
     masks.is_truly_lit.push_back(alpha >= 0.5F);
   masks.samples.resize(masks.is_truly_lit.size());
 
-  const std::vector<ShadowMapFrame> maps = shadow_map_frames(renderer, light);
+  masks.maps = shadow_map_frames(renderer, light);
   const Light_ws light_ws = light_of(renderer, light);
-  const auto vector_at = [&](const char* layer, std::size_t i) {
-    const std::string name(layer);
-    return glm::dvec3(truth.find(name + "X")->values[i], truth.find(name + "Y")->values[i],
-                      truth.find(name + "Z")->values[i]);
+  masks.is_blocked = [rays = std::make_shared<const TruthRays>(renderer.scene()), light_ws](
+                         const glm::dvec3& from, double near) {
+    return rays->is_blocked(from, light_ws, near);
+  };
+  const auto vector_at = [](const LayeredImage& image, const std::string& layer, std::size_t i) {
+    return glm::dvec3(image.find(layer + "X")->values[i], image.find(layer + "Y")->values[i],
+                      image.find(layer + "Z")->values[i]);
   };
   const std::span<const float> objects = values_of(truth, "id.object");
   for (std::size_t i = 0; i < masks.samples.size(); ++i) {
     if (objects[i] < 0) continue;
-    const glm::dvec3 position_ws = vector_at("P.", i);
+    const glm::dvec3 position_ws = vector_at(truth, "P.", i);
     const glm::dvec3 to_light = light_ws.is_parallel ? light_ws.direction : light_ws.position - position_ws;
-    if (glm::dot(vector_at("N.", i), to_light) <= 0) continue;
-    if (locate(maps, position_ws, masks.samples[i])) masks.samples[i].object = static_cast<int>(objects[i]);
+    const double cosine = glm::dot(vector_at(truth, "N.", i), glm::normalize(to_light));
+    ShadowSample& sample = masks.samples[i];
+    if (cosine <= 0 || !locate(masks.maps, position_ws, sample)) continue;
+    sample.object = static_cast<int>(objects[i]);
+    sample.position_ws = glm::vec3(position_ws);
+    sample.normal_ws = glm::vec3(vector_at(truth, "N.", i));
+    sample.depth_slope = sample.footprint * std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine;
   }
-  // On a silhouette the two pictures may see different objects: such a pixel compares nothing.
+  // On a silhouette the two pictures may see different surfaces, also because cut-outs are filtered by the pixel's
+  // size: such a pixel compares nothing.
   const std::span<const float> seen = values_of(technique, "id.object");
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const std::size_t x = i % static_cast<std::size_t>(masks.width);
     const std::size_t y = i / static_cast<std::size_t>(masks.width);
     const auto k = static_cast<std::size_t>(fineness);
     const std::size_t centre = (y * k + k / 2) * static_cast<std::size_t>(masks.width) * k + x * k + k / 2;
-    if (objects[centre] != seen[i]) masks.samples[centre].object = -1;
+    ShadowSample& sample = masks.samples[centre];
+    const double apart = glm::distance(vector_at(truth, "P.", centre), vector_at(technique, "P.", i));
+    if (objects[centre] != seen[i] || apart > 0.1 * sample.footprint) sample.object = -1;
   }
   return masks;
 }
@@ -255,7 +308,8 @@ ShadowErrors find_shadow_errors(const ShadowMasks& masks) {
         errors.edge_pixels += is_edge ? 1 : 0;
         continue;
       }
-      const double distance = boundaries.distance_from(sample, 2 * truth.depth_per_texel(tx, ty));
+      double distance = boundaries.distance_from(sample);
+      if (distance >= kEdgeTexels) distance = std::min(distance, probed_distance(masks, sample, !is_lit));
       const bool is_far = distance > kFarTexels;
       ++errors.edge_pixels;
       errors.edge_mismatches += distance < kEdgeTexels ? 0 : 1;

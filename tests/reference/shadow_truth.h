@@ -1,6 +1,7 @@
 // How wrong a shadow is: a technique's mask against rays, measured in texels of the light's shadow map.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,10 +14,12 @@ namespace laterna::reference {
 struct ShadowSample {
   /// Number of the object; −1: not counted, because there is nothing, or the light does not fall on it.
   int object = -1;
-  int face = 0;          ///< of the light's maps
-  glm::dvec2 texel{0};   ///< in that map
-  double depth = 0;      ///< metres along the map's axis
-  double footprint = 0;  ///< of a texel at that depth, metres
+  int face = 0;            ///< of the light's maps
+  glm::dvec2 texel{0};     ///< in that map
+  double depth = 0;        ///< metres along the map's axis
+  double footprint = 0;    ///< of a texel at that depth, metres
+  double depth_slope = 0;  ///< change of depth along the surface from one texel to the next, at most
+  glm::vec3 position_ws{0}, normal_ws{0};
 };
 
 /// What one map of a light covers, and how finely.
@@ -34,6 +37,9 @@ struct ShadowMasks {
   std::vector<bool> is_lit;           ///< per pixel: α ≥ 0.5
   std::vector<bool> is_truly_lit;     ///< per truth sample
   std::vector<ShadowSample> samples;  ///< per truth sample
+  std::vector<ShadowMapFrame> maps;
+  /// Whether a ray from a point to the light meets anything beyond `near` metres.
+  std::function<bool(const glm::dvec3& position_ws, double near)> is_blocked;
 };
 
 /// The scene with each triangle's own normal, so that a normal layer tells which triangles face the light.
@@ -58,9 +64,11 @@ struct ShadowErrors {
 };
 inline constexpr double kFarTexels = 2, kEdgeTexels = 1.5;
 
-/// A true boundary lies halfway between neighbouring truth samples of one object of which one is lit. A pixel is
-/// measured against the boundaries of its own object in its own neighbourhood: not those on a far side of the object
-/// that the light sees at the same texel.
+/// Distance is that in the map's texels, along the receiver, to the nearest place where a true shadow begins. Such places
+/// are found in the picture: halfway between neighbouring truth samples of one object of which one is lit, where the
+/// pixel's own surface, going on as it is, may reach. And where the picture does not show them, because they lie beyond
+/// its rim or behind something, by rays from the pixel's plane, up to kFarTexels about it; what stands within two texels'
+/// width of that plane does not count for those.
 ShadowErrors find_shadow_errors(const ShadowMasks& masks);
 
 /// For messages.
