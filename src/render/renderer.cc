@@ -11,6 +11,7 @@
 #include "render/metadata.h"
 #include "render/picture_writer.h"
 #include "render/settings_check.h"
+#include "scene/surface_attributes.h"
 #include "shadow/ray_traced.h"
 #include "shadow/shadow_map.h"
 
@@ -60,6 +61,19 @@ void add_default_light(Scene& scene) {
   scene.ambient = glm::vec3(0.25F);
   scene.warnings.push_back(
       {{}, {}, "the scene has no light: it is lit by a default sun and a little ambient light"});
+}
+
+// Tangents for normal maps, where the caller gave none. Readers of files have done so already.
+void add_missing_tangents(Scene& scene) {
+  FaultList faults("");
+  for (Mesh& mesh : scene.meshes) {
+    for (Primitive& primitive : mesh.primitives) {
+      if (primitive.material < 0 || !primitive.tangents.empty()) continue;
+      const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+      if (material.normal_texture.is_set()) complete_attributes(primitive, &material, {}, mesh.name, faults);
+    }
+  }
+  scene.warnings.insert(scene.warnings.end(), faults.warnings().begin(), faults.warnings().end());
 }
 
 class ProgressReport {
@@ -213,6 +227,7 @@ Result<Renderer> Renderer::create(Scene scene, const RendererOptions& options) {
   }
   if (Result<void> checked = render::check_options(options); !checked) return tl::unexpected(checked.error());
   add_default_light(scene);
+  add_missing_tangents(scene);
   auto implementation = std::make_unique<Implementation>(std::move(scene), options);
   if (Result<void> built = implementation->load(); !built) return tl::unexpected(std::move(built.error()));
   return Renderer(std::move(implementation));
