@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t kFileHeaderSize = 14;
 
-// Run-length encoding ends a row with two bytes, and a row has at most 65536 pixels. A jump may skip more; a
-// file that is nothing but jumps is no picture.
-constexpr std::int64_t kMostPixelsPerByte = kMaxImageSide / 2;
+// A run of 255 pixels takes two bytes. Ends of rows and jumps skip more; a picture 8192 pixels wide whose rows are all
+// empty is still read.
+constexpr std::int64_t kMostPixelsPerByte = 4096;
 
 enum Compression : std::uint32_t { kNone = 0, kRle8 = 1, kRle4 = 2, kBitFields = 3, kAlphaBitFields = 6 };
 

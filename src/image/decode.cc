@@ -77,10 +77,7 @@ Result<ImageHeader> read_checked_header(const Decoder& decoder, const EncodedPic
   }
   if (decoder.most_pixels_per_byte > 0 &&
       pixels / decoder.most_pixels_per_byte > static_cast<std::int64_t>(encoded.bytes.size())) {
-    return unreadable(encoded, {},
-                      "the header claims " + size_text(*header) + " pixels, more than a " +
-                          std::string(decoder.format) + " file of " + std::to_string(encoded.bytes.size()) +
-                          " bytes can hold");
+    return claims_too_much(encoded, decoder.format, *header);
   }
   return header;
 }
@@ -104,6 +101,13 @@ bool begins_with(std::span<const std::byte> bytes, std::string_view signature) {
 tl::unexpected<Error> unreadable(const EncodedPicture& encoded, std::string place, std::string message) {
   return tl::unexpected(
       Error(Failure::bad_input, Diagnostic{std::string(encoded.name), std::move(place), std::move(message)}));
+}
+
+tl::unexpected<Error> claims_too_much(const EncodedPicture& encoded, std::string_view format,
+                                      const ImageHeader& header) {
+  return unreadable(encoded, {},
+                    "the header claims " + size_text(header) + " pixels, more than a " + std::string(format) +
+                        " file of " + std::to_string(encoded.bytes.size()) + " bytes can hold");
 }
 
 std::string at_byte(std::size_t position) { return "byte " + std::to_string(position); }

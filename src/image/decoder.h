@@ -47,6 +47,10 @@ tl::unexpected<Error> unreadable(const EncodedPicture& encoded, std::string plac
 /// "byte 20"
 std::string at_byte(std::size_t position);
 
+/// An error about a header that claims more pixels than the whole file can hold.
+tl::unexpected<Error> claims_too_much(const EncodedPicture& encoded, std::string_view format,
+                                      const ImageHeader& header);
+
 /// An error that says that the file ends too early. `missing` completes "the file ends here, inside …".
 tl::unexpected<Error> ends_early(const EncodedPicture& encoded, std::string_view missing);
 

@@ -7,9 +7,9 @@
 namespace laterna::image {
 namespace {
 
-// Huffman-coded blocks of 64 pixels take at least a bit: 512 pixels per byte. Arithmetic coding goes beyond;
-// this is far from what any picture needs.
-constexpr std::int64_t kMostPixelsPerByte = 65536;
+// Huffman-coded blocks of 64 pixels take at least a bit: 512 pixels per byte. Arithmetic coding can go beyond, though no
+// picture that shows anything comes near this.
+constexpr std::int64_t kMostPixelsPerByte = 4096;
 
 // The accurate transform gives the same pixels with every instruction set. Many-scan files, made to waste
 // time, stop.

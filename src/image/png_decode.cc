@@ -10,8 +10,11 @@
 namespace laterna::image {
 namespace {
 
-// One bit per pixel, and zlib's best ratio, 1032 : 1.
-constexpr std::int64_t kMostPixelsPerByte = std::int64_t{8} * 1032;
+constexpr std::string_view kFormat = "PNG";
+
+// One bit per pixel, and zlib's best ratio. Deeper pixels are held to the ratio once their depth is known.
+constexpr std::int64_t kLargestRatio = 1032;
+constexpr std::int64_t kMostPixelsPerByte = 8 * kLargestRatio;
 
 // Only what decides the pixels is parsed: IHDR, PLTE, tRNS, IDAT, IEND.
 constexpr char kIgnoredChunks[] =
@@ -54,12 +57,17 @@ class PngFile {
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER,
                                 reinterpret_cast<png_const_bytep>(kIgnoredChunks), sizeof kIgnoredChunks / 5);
     png_read_info(png_, info_);
+    packed_bytes_ =
+        static_cast<std::int64_t>(png_get_rowbytes(png_, info_)) * png_get_image_height(png_, info_);
     png_set_expand(png_);
     if (std::endian::native == std::endian::little) png_set_swap(png_);
     png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     return true;
   }
+
+  // Size of the pixels as the file has them, before compression.
+  [[nodiscard]] std::int64_t packed_bytes() const { return packed_bytes_; }
 
   bool read_pixels(png_bytepp rows) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
@@ -105,6 +113,7 @@ class PngFile {
 
   std::span<const std::byte> bytes_;
   std::size_t position_ = 0;
+  std::int64_t packed_bytes_ = 0;
   std::string error_, warning_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
@@ -121,6 +130,8 @@ Result<ImageHeader> read_header(const EncodedPicture& encoded) {
 Result<Image> decode(const EncodedPicture& encoded, const ImageHeader& header) {
   PngFile file(encoded.bytes);
   if (!file.read_header()) return file.fault(encoded);
+  if (file.packed_bytes() / kLargestRatio > static_cast<std::int64_t>(encoded.bytes.size()))
+    return claims_too_much(encoded, kFormat, header);
   Image image(header.width, header.height, header.channels, header.type, Transfer::srgb);
   const std::size_t row_bytes = image.bytes().size() / static_cast<std::size_t>(header.height);
   std::vector<png_bytep> rows(static_cast<std::size_t>(header.height));
@@ -133,6 +144,6 @@ Result<Image> decode(const EncodedPicture& encoded, const ImageHeader& header) {
 
 }  // namespace
 
-const Decoder kPngDecoder = {"PNG", kMostPixelsPerByte, recognises, read_header, decode};
+const Decoder kPngDecoder = {kFormat, kMostPixelsPerByte, recognises, read_header, decode};
 
 }  // namespace laterna::image

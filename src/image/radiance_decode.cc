@@ -14,8 +14,8 @@
 namespace laterna::image {
 namespace {
 
-// The older encoding needs 12 bytes for a row of 65536 pixels.
-constexpr std::int64_t kMostPixelsPerByte = kMaxImageSide / 8;
+// The older encoding needs 12 bytes for a row of one colour, 12288 pixels wide here.
+constexpr std::int64_t kMostPixelsPerByte = 1024;
 
 // Rows outside these lengths are never in the newer encoding.
 constexpr int kShortestRun = 8, kLongestRun = 0x7FFF;

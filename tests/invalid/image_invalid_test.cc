@@ -69,6 +69,8 @@ TEST(InvalidPicture, Png) {
        "a.png: the picture is 65536 x 65536 pixels; at most 65536 per side and 1073741824 in all are read"},
       {png(30000, 30000, 8, 2, rows), "a.png",
        "a.png: the header claims 30000 x 30000 pixels, more than a PNG file of 72 bytes can hold"},
+      {png(1000, 1000, 16, 6, rows), "a.png",  // would do at one bit per pixel
+       "a.png: the header claims 1000 x 1000 pixels, more than a PNG file of 72 bytes can hold"},
       {png(1, 1, 3, 2, rows), "a.png",
        "a.png: byte 33: Invalid IHDR data (Invalid color type/bit depth combination in IHDR)"},
       {png(1, 1, 8, 5, rows), "a.png", "a.png: byte 33: Invalid IHDR data (Invalid color type in IHDR)"},
