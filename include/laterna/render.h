@@ -105,6 +105,8 @@ struct RendererOptions {
 class Renderer {
  public:
   /// Validates the scene, decodes its pictures and lays out its triangles.
+  /// A scene with neither a light nor ambient light set is given a "default sun" over the viewer's shoulder and a
+  /// little ambient light: scene() then holds them, and a warning that says so.
   static Result<Renderer> create(Scene scene, const RendererOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;

@@ -367,8 +367,11 @@ Result<void> Renderer::set_light(int light, Light value) {
     std::swap(place, value);
     return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
   }
-  if (place.slide >= 0 && self.textures->find(place.slide, frame::slide_use(place)) == nullptr)
-    return self.load();
+  if (place.slide >= 0 && self.textures->find(place.slide, frame::slide_use(place)) == nullptr) {
+    Result<void> loaded = self.load();
+    if (!loaded) std::swap(place, value);
+    return loaded;
+  }
   self.frame.place_lights_and_cameras(self.scene);
   return {};
 }
