@@ -28,11 +28,11 @@ namespace laterna {
 /// A picture that a material or a projector uses: a file, encoded bytes, or pixels. Exactly one of the three is set.
 /// Pixels are decoded once, when a Renderer is made, all pictures in parallel.
 struct Picture {
-  std::string name;                                  ///< for messages: the file, or "scene.glb: images[3]"
-  std::filesystem::path file;                        ///< a file still to be read
+  std::string name;            ///< for messages: the file, or "scene.glb: images[3]"
+  std::filesystem::path file;  ///< a file still to be read
   std::shared_ptr<const std::vector<std::byte>> encoded_owner;  ///< keeps `encoded` alive
-  std::span<const std::byte> encoded;                ///< bytes of a PNG, JPEG, … file
-  std::shared_ptr<const Image> pixels;               ///< decoded by the caller
+  std::span<const std::byte> encoded;                           ///< bytes of a PNG, JPEG, … file
+  std::shared_ptr<const Image> pixels;                          ///< decoded by the caller
 };
 
 /// A picture bound to a set of texture coordinates. (u, v) = (0, 0) is the top-left corner of the picture.
@@ -61,7 +61,7 @@ struct Material {
   float normal_scale = 1;
   Texture occlusion_texture;  ///< linear, R; scales ambient light only
   float occlusion_strength = 1;
-  glm::vec3 emissive{0};  ///< radiance factor, KHR_materials_emissive_strength folded in
+  glm::vec3 emissive{0};     ///< radiance factor, KHR_materials_emissive_strength folded in
   Texture emissive_texture;  ///< sRGB
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
@@ -72,12 +72,12 @@ struct Material {
 /// Triangles of one material. Attributes are empty or as long as `positions`.
 struct Primitive {
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;               ///< empty: flat normals are computed
-  std::vector<glm::vec4> tangents;              ///< xyz, w = ±1 handedness; empty: computed where a normal map needs them
+  std::vector<glm::vec3> normals;   ///< empty: flat normals are computed
+  std::vector<glm::vec4> tangents;  ///< xyz, w = ±1 handedness; empty: computed where a normal map needs them
   std::array<std::vector<glm::vec2>, 2> uv;
-  std::vector<glm::vec4> colors;                ///< linear, multiply the base colour
-  std::vector<std::uint32_t> indices;           ///< three per triangle; empty: positions come in triples
-  int material = -1;                            ///< −1: glTF's default material, white
+  std::vector<glm::vec4> colors;       ///< linear, multiply the base colour
+  std::vector<std::uint32_t> indices;  ///< three per triangle; empty: positions come in triples
+  int material = -1;                   ///< −1: glTF's default material, white
 };
 
 struct Mesh {
@@ -96,7 +96,7 @@ enum class LightType : std::uint8_t {
 
 /// How a projector's intensity depends on the direction, before the slide colours it (row 16).
 enum class BeamProfile : std::uint8_t {
-  flat_field,       ///< equal illuminance all over a square-on wall, as a slide projector's condenser is made to give
+  flat_field,  ///< equal illuminance all over a square-on wall, as a slide projector's condenser is made to give
   uniform_candela,  ///< equal intensity in every direction: illuminance falls with cos³ on that wall
 };
 
@@ -115,22 +115,23 @@ enum class Attenuation : std::uint8_t {
 enum class ShadowTechnique : std::uint8_t { none, map, raytraced };
 /// How a shadow map is read.
 enum class ShadowFilter : std::uint8_t {
-  refined,            ///< near edges and contacts, the triangles that the texels saw are tested themselves: shadow
-                      ///< edges are as sharp as the picture, antialiased, and surfaces never shade themselves
-  nearest,            ///< one texel: a staircase
-  bilinear,           ///< four texels, weighted
+  refined,   ///< near edges and contacts, the triangles that the texels saw are tested themselves: shadow
+             ///< edges are as sharp as the picture, antialiased, and surfaces never shade themselves
+  nearest,   ///< one texel: a staircase
+  bilinear,  ///< four texels, weighted
   percentage_closer,  ///< kernel × kernel nearest texels, all of one weight
 };
 enum class CasterFaces : std::uint8_t { both, back_only };
 
 /// One light's shadows. The defaults need no tuning: bias follows from the receiver's plane and the texel's footprint.
+/// A manual bias, constant, by slope or both, takes its place, and `refined` is then read as `bilinear`.
 struct ShadowSettings {
   std::optional<ShadowTechnique> technique;  ///< unset: the picture's
-  int resolution = 0;                        ///< texels per side of a map (per cube face); 0: 2048, point lights 1024
+  int resolution = 0;  ///< texels per side of a map (per cube face); 0: 2048, point lights 1024
   ShadowFilter filter = ShadowFilter::refined;
-  int kernel = 3;                                  ///< percentage_closer: kernel × kernel nearest taps, 2…9
-  std::optional<double> constant_bias;       ///< metres toward the light; overrides the automatic bias
-  std::optional<double> slope_bias;          ///< texel footprints per unit of depth slope; overrides likewise
+  int kernel = 3;                       ///< percentage_closer: kernel × kernel nearest taps, 2…9
+  std::optional<double> constant_bias;  ///< metres toward the light; overrides the automatic bias
+  std::optional<double> slope_bias;     ///< texel footprints per unit of depth slope; overrides likewise
   CasterFaces caster_faces = CasterFaces::both;
   bool outside_is_lit = true;  ///< beyond the map's sides or far plane
   bool operator==(const ShadowSettings&) const = default;
@@ -155,7 +156,8 @@ struct Light {
   Angle inner_cone, outer_cone = Angle::degrees(45);  ///< spot: half angles
 
   // Projector; directional uses `projection` too when `fit` is false.
-  Projection projection = Projection::perspective(Angle::degrees(40), 1, 0.1, std::numeric_limits<double>::infinity());
+  Projection projection =
+      Projection::perspective(Angle::degrees(40), 1, 0.1, std::numeric_limits<double>::infinity());
   bool aspect_from_slide = true;  ///< the frustum's width follows the slide's; yfov is kept
   int slide = -1;                 ///< index into Scene::pictures; −1: plain white
   /// The picture is an intensity map: linear, candela per direction in units of `intensity`; there is no `profile`.
@@ -173,7 +175,8 @@ struct Light {
 
 struct Camera {
   std::string name;
-  Projection projection = Projection::perspective(Angle::degrees(45), 1, 0.1, std::numeric_limits<double>::infinity());
+  Projection projection =
+      Projection::perspective(Angle::degrees(45), 1, 0.1, std::numeric_limits<double>::infinity());
   /// The frustum's width follows the picture's aspect; otherwise a picture of another aspect shows more, never less.
   bool aspect_from_picture = true;
 };
@@ -202,8 +205,8 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Light> lights;
   std::vector<Node> nodes;
-  glm::vec3 ambient{0};                 ///< radiance from everywhere, multiplied by the base colour
-  bool ambient_is_set = false;          ///< by a rig; otherwise the renderer may choose one for a scene without light
+  glm::vec3 ambient{0};         ///< radiance from everywhere, multiplied by the base colour
+  bool ambient_is_set = false;  ///< by a rig; otherwise the renderer may choose one for a scene without light
   std::optional<glm::vec3> background;  ///< linear radiance; unset: black, alpha 0
   std::optional<PhongHighlight> phong;
   std::vector<Diagnostic> warnings;  ///< what was left out or guessed while reading

@@ -49,14 +49,16 @@ double candela_from_lumens(double lumens, const Projection& p, BeamProfile profi
   return lumens / (profile == BeamProfile::flat_field ? area : solid_angle(p));
 }
 
-void place_lights_and_cameras(const Scene& scene, const std::vector<glm::dmat4>& world_from_node, Frame& frame) {
+void place_lights_and_cameras(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
+                              Frame& frame) {
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
     if (node.light < 0 && node.camera < 0) continue;
     const Result<Pose> pose = Pose::from_matrix(world_from_node[i]);
     if (!pose) continue;  // validate() has refused such a scene
     const int index = static_cast<int>(i);
-    if (node.camera >= 0) frame.cameras.push_back({&scene.cameras[static_cast<std::size_t>(node.camera)], index, *pose});
+    if (node.camera >= 0)
+      frame.cameras.push_back({&scene.cameras[static_cast<std::size_t>(node.camera)], index, *pose});
     if (node.light < 0) continue;
     const Light& light = scene.lights[static_cast<std::size_t>(node.light)];
     if (light.enabled) frame.lights.push_back(place(light, index, *pose, frame));

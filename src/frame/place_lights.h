@@ -6,7 +6,8 @@
 namespace laterna::frame {
 
 /// Fills the frame's lights (enabled ones) and cameras, in node order.
-void place_lights_and_cameras(const Scene& scene, const std::vector<glm::dmat4>& world_from_node, Frame& frame);
+void place_lights_and_cameras(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
+                              Frame& frame);
 
 /// How a projector's intensity depends on the direction: an intensity map holds candela per direction by itself
 /// (row 16), whatever the profile says.

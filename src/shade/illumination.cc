@@ -11,16 +11,19 @@ namespace {
 
 Wrap wrap_of(Outside outside) {
   switch (outside) {
-    case Outside::repeat: return Wrap::repeat;
-    case Outside::mirror: return Wrap::mirror;
-    default: return Wrap::clamp;
+    case Outside::repeat:
+      return Wrap::repeat;
+    case Outside::mirror:
+      return Wrap::mirror;
+    default:
+      return Wrap::clamp;
   }
 }
 
 }  // namespace
 
-BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterView::Ray& ray, ShadingModel model,
-                       int most_probes)
+BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterView::Ray& ray,
+                       ShadingModel model, int most_probes)
     : light(placed.light),
       inverse_range(std::isinf(placed.light->range) ? 0.0F : static_cast<float>(1 / placed.light->range)),
       is_papers(model == ShadingModel::papers),
@@ -44,7 +47,8 @@ BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterVie
   }
   if (light->type == LightType::projector) {
     const glm::dmat4 m = glm::transpose(placed.view.image_from_world());
-    slide_position = {shadow::ProjectedRow(m[0], ray), shadow::ProjectedRow(m[1], ray), shadow::ProjectedRow(m[3], ray)};
+    slide_position = {shadow::ProjectedRow(m[0], ray), shadow::ProjectedRow(m[1], ray),
+                      shadow::ProjectedRow(m[3], ray)};
     slide_sampler.wrap_u = slide_sampler.wrap_v = wrap_of(light->outside);
   }
 }

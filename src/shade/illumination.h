@@ -16,9 +16,9 @@ namespace laterna::shade {
 /// A light bound to the rays of the samples it will shine on. What the kernels read.
 struct BoundLight {
   const Light* light = nullptr;
-  float color[3];        // linear colour × candela or lux; papers: colour alone
+  float color[3];  // linear colour × candela or lux; papers: colour alone
   float position_ws[3];
-  float forward_ws[3];   // along the light's axis, away from it
+  float forward_ws[3];                    // along the light's axis, away from it
   float cone_scale = 0, cone_offset = 1;  // KHR_lights_punctual's angular term
   float inverse_range = 0;                // 0: unlimited
   bool is_papers = false;
@@ -32,7 +32,8 @@ struct BoundLight {
   Sampler slide_sampler;
   int anisotropy = 1;
 
-  BoundLight(const frame::PlacedLight& placed, const raster::RasterView::Ray& ray, ShadingModel model, int anisotropy);
+  BoundLight(const frame::PlacedLight& placed, const raster::RasterView::Ray& ray, ShadingModel model,
+             int anisotropy);
 };
 
 /// Light arriving at samples if nothing stood in its way.
@@ -54,7 +55,8 @@ struct SlideCoordinates {
 };
 
 using FindIrradiance = void (*)(const BoundLight& light, const shadow::SurfaceSamples& samples,
-                                const SurfacePoints& points, const SlideCoordinates* coordinates, Irradiance& irradiance);
+                                const SurfacePoints& points, const SlideCoordinates* coordinates,
+                                Irradiance& irradiance);
 FindIrradiance find_irradiance_for(InstructionSet set);
 
 /// How surfaces answer.
@@ -70,8 +72,8 @@ struct Radiance {
 };
 
 /// What needs no light: ambient light on the base colour, what the surface emits, unlit colour.
-using FindAmbient = void (*)(const ReflectionSettings& settings, const frame::Surface& surface, std::size_t groups,
-                             const SurfacePoints& points, Radiance& radiance);
+using FindAmbient = void (*)(const ReflectionSettings& settings, const frame::Surface& surface,
+                             std::size_t groups, const SurfacePoints& points, Radiance& radiance);
 FindAmbient find_ambient_for(InstructionSet set);
 
 /// One light's part, by the arriving fraction `alpha`: added to `radiance`, or in its place. Samples that are not lit

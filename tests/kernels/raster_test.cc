@@ -102,6 +102,7 @@ std::vector<std::array<glm::vec2, 3>> random_tiling(std::mt19937& random, glm::v
     }
   }
   std::vector<std::array<glm::vec2, 3>> out;
+  out.reserve(triangles.size());
   for (const auto& t : triangles) {
     out.push_back({points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[1])],
                    points[static_cast<std::size_t>(t[2])]});
@@ -180,7 +181,7 @@ int reference_coverage(const RasterView& view, const std::array<glm::dvec3, 3>& 
   for (int i = 0; i < 3; ++i) {
     // The pipeline transforms in float; these scenes have coordinates that are exact in it.
     const glm::dvec3 p = triangle_ws[static_cast<std::size_t>(i)] - view.eye_ws;
-    const float w = static_cast<float>(glm::dot(view.w_row, p));
+    const auto w = static_cast<float>(glm::dot(view.w_row, p));
     const float q = 1.0F / w;
     x[i] = static_cast<std::int64_t>(std::nearbyint(static_cast<float>(glm::dot(view.x_row, p)) * q * 256));
     y[i] = static_cast<std::int64_t>(std::nearbyint(static_cast<float>(glm::dot(view.y_row, p)) * q * 256));

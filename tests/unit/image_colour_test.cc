@@ -33,12 +33,12 @@ void expect_correct_rounding() {
   for (double code = 1; code <= kLargest; ++code) {
     const auto threshold = static_cast<float>(linear_from_srgb((code - 0.5) / kLargest));
     for (int step = -3; step <= 3; ++step) {
-      const float x =
+      const auto x =
           std::bit_cast<float>(std::bit_cast<std::uint32_t>(threshold) + static_cast<std::uint32_t>(step));
       ASSERT_EQ(encoded<Code>(x), expected<Code>(x)) << x;
     }
   }
-  const std::uint32_t one = std::bit_cast<std::uint32_t>(1.0F);
+  const auto one = std::bit_cast<std::uint32_t>(1.0F);
   for (std::uint32_t bits = 0; bits <= one; bits += 1009) {
     const auto x = std::bit_cast<float>(bits);
     ASSERT_EQ(encoded<Code>(x), expected<Code>(x)) << x;

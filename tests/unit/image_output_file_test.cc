@@ -126,6 +126,7 @@ TEST(OutputFile, AFullDiskIsAnError) {
 TEST(OutputFile, ManyMayBeWrittenAtOnce) {
   const TemporaryDirectory directory;
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&, t] {
       for (int i = 0; i < 50; ++i) {

@@ -132,8 +132,8 @@ TEST(Tangents, DegenerateFacesGiveNoNan) {
 TEST(Tangents, AFaceWithoutAreaGoesWithItsNeighbours) {
   Primitive p = square();
   for (glm::vec2& uv : p.uv[0]) uv.x = 1 - uv.x;
-  p.positions.push_back({0, 0, 0});  // equal to vertex 0, used by a degenerate face only
-  p.normals.push_back({0, 0, 1});
+  p.positions.emplace_back(0, 0, 0);  // equal to vertex 0, used by a degenerate face only
+  p.normals.emplace_back(0, 0, 1);
   p.uv[0].push_back(p.uv[0][0]);
   p.indices.insert(p.indices.end(), {4, 4, 4});
   compute_tangents(p, 0);
