@@ -34,7 +34,7 @@ test: ## check the includes, build, run every test
 bench: ## milliseconds per stage of the demo's scene, and of the kernels
 	@scripts/install-deps.sh demo bench
 	@$(call configure,release,-DLATERNA_BUILD_BENCHMARKS=ON)
-	@$(call build,release)
+	@$(call build,release,--target laterna_cli laterna_bench)
 	@scripts/bench.sh
 
 lint: ## clang-format and clang-tidy
