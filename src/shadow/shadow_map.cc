@@ -29,6 +29,12 @@ BoundDepthMap bind(const DepthMap& map, const raster::RasterView::Ray& ray) {
 
 }  // namespace
 
+ShadowFilter filter_of(const ShadowSettings& settings) {
+  const bool has_manual_bias = settings.constant_bias || settings.slope_bias;
+  return has_manual_bias && settings.filter == ShadowFilter::refined ? ShadowFilter::bilinear
+                                                                     : settings.filter;
+}
+
 ShadowBias bias_of(const ShadowSettings& settings) {
   if (!settings.constant_bias && !settings.slope_bias) return {};
   ShadowBias bias;
@@ -47,7 +53,7 @@ ShadowMap::ShadowMap(const light::PlannedLight& planned,
     test_.maps.push_back(bind(*maps[i], ray));
   }
   test_.bias = bias_of(planned.settings);
-  test_.filter = planned.settings.filter;
+  test_.filter = filter_of(planned.settings);
   test_.frame = &frame;
   // Several samples per pixel antialias shadows' edges by themselves.
   test_.positions = samples_per_pixel > 1 ? 1 : 5;

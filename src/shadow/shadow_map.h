@@ -65,6 +65,9 @@ class ShadowMap final : public ShadowTechnique {
   ShadowMapTest test_;
 };
 
+/// The settings' filter. The refined one tests triangles and knows no bias: with a manual bias the four texels are
+/// compared as `bilinear` does.
+ShadowFilter filter_of(const ShadowSettings& settings);
 /// The settings' manual values, or the automatic bias.
 ShadowBias bias_of(const ShadowSettings& settings);
 

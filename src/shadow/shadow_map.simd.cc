@@ -64,6 +64,10 @@ struct Quad {
   FloatVector weight_x, weight_y;  // of the second column and row
 };
 
+// What single precision may lose of a depth, stored and tested together, as a share of it: a little over four times 2⁻²³. 1 cm at 9 km
+// is more (row 24).
+constexpr float kDepthRounding = 5e-7F;
+
 class MapReader {
  public:
   MapReader(const ShadowMapTest& test, const BoundDepthMap& bound, float position_error)
@@ -103,7 +107,7 @@ class MapReader {
       r.texel = Splat(bound_.texel_size) * r.q;
       r.rounding = error * r.q * r.q;
     }
-    r.rounding = r.rounding + Splat(2e-6F) * hn::Abs(r.q);
+    r.rounding = r.rounding + Splat(kDepthRounding) * hn::Abs(r.q);
     r.faces_light = plane_divisor < Splat(0.0F);
     // A plane seen edge-on has no slope to speak of; its lit and dark sides meet in one texel.
     const auto is_edge_on = hn::Abs(plane_divisor) <= Splat(1e-9F);
