@@ -64,8 +64,8 @@ struct Quad {
   FloatVector weight_x, weight_y;  // of the second column and row
 };
 
-// What single precision may lose of a depth, stored and tested together, as a share of it: a little over four times 2⁻²³. 1 cm at 9 km
-// is more (row 24).
+// What single precision may lose of a depth, stored and tested together, as a share of it: a little over four times
+// 2⁻²³. 1 cm at 9 km is more (row 24).
 constexpr float kDepthRounding = 5e-7F;
 
 class MapReader {
@@ -459,9 +459,9 @@ HWY_INLINE Slopes FindSlopes(const ShadowMapTest& test, const Points& p, FloatVe
 constexpr float kPlaces[5][2] = {
     {0, 0}, {-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}};
 
-// α at one of test.positions places in the pixels: the only one is the sample itself.
+// α at one of test.positions places in the pixels: the only one is the sample itself. `centre_is_lit` as far as known.
 HWY_INLINE FloatVector ArrivalAt(const ShadowMapTest& test, const SurfaceSamples& s, const Points& centre,
-                                 const Slopes& slopes, IntVector own, int place) {
+                                 const Slopes& slopes, IntVector own, FloatMask centre_is_lit, int place) {
   Points points = centre;
   // Corners were snapped: at its rim a triangle may have been given samples that lie on its plane a little beside it.
   const auto pixel = hn::Sqrt(Dot(slopes.dp_dx, slopes.dp_dx)) + hn::Sqrt(Dot(slopes.dp_dy, slopes.dp_dy));
@@ -473,8 +473,9 @@ HWY_INLINE FloatVector ArrivalAt(const ShadowMapTest& test, const SurfaceSamples
     points.y = centre.y + dy;
     points.q = centre.q + (slopes.dq_dx * dx + slopes.dq_dy * dy);
     points.position_ws = centre.position_ws + step;
-    // Beyond the end of its triangle the plane may run into the next one, no farther than the step.
-    near = near + Splat(2.0F) * hn::Sqrt(Dot(step, step));
+    // Beyond the end of its triangle the plane may run into the next one, no farther than the step. That must not
+    // darken what is lit; where the centre is dark, what stands so near is what darkens it.
+    near = near + hn::IfThenElseZero(centre_is_lit, Splat(2.0F) * hn::Sqrt(Dot(step, step)));
   }
   auto result = Splat(1.0F);
   ForEachMap(test, points.position_ws, [&](const BoundDepthMap& map, FloatMask here) HWY_ATTR {
@@ -512,13 +513,16 @@ class RefinementList {
                              {read(s.normal_x_ws), read(s.normal_y_ws), read(s.normal_z_ws)}};
       const Slopes slopes = FindSlopes(test, points, read(s.dq_dx), read(s.dq_dy));
       const auto own = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(s.id.data()), index);
-      const auto centre = ArrivalAt(test, s, points, slopes, own, 0);
+      const auto any = Splat(0.0F) == Splat(0.0F);
+      const auto centre = ArrivalAt(test, s, points, slopes, own, any, 0);
       auto result = centre;
       if (test.positions > 1) {
-        for (int i = 1; i < test.positions; ++i) result = result + ArrivalAt(test, s, points, slopes, own, i);
         const auto share = Splat(1.0F / static_cast<float>(test.positions));
         const auto majority = Splat(static_cast<float>(test.positions / 2 + 1)) * share;
         const auto is_lit = centre >= Splat(0.5F);
+        for (int i = 1; i < test.positions; ++i) {
+          result = result + ArrivalAt(test, s, points, slopes, own, is_lit, i);
+        }
         result = hn::IfThenElse(is_lit, hn::Max(result * share, majority),
                                 hn::Min(result * share, Splat(1.0F) - majority));
       }

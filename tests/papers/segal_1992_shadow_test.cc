@@ -161,11 +161,11 @@ TEST(Segal1992Shadow, AtNineKilometresAPlateShadesTheOneACentimetreBehindIt) {
   const View camera = look({0, 0, -8990}, {0, 0, -9000}, 60, 1);
   RenderSettings settings = papers_settings(64, 64);
   settings.layers = {Layer::visibility};
-  for (const float alpha : values_of(render(make_renderer(scene), camera, settings), "visibility.light"))
-    ASSERT_EQ(alpha, 1);
+  const LayeredImage in_light = render(make_renderer(scene), camera, settings);
+  for (const float alpha : values_of(in_light, "visibility.light")) ASSERT_EQ(alpha, 1);
   scene.nodes[static_cast<std::size_t>(front)].visible = false;  // to the camera; it still casts
-  for (const float alpha : values_of(render(make_renderer(scene), camera, settings), "visibility.light"))
-    ASSERT_EQ(alpha, 0);
+  const LayeredImage in_shadow = render(make_renderer(scene), camera, settings);
+  for (const float alpha : values_of(in_shadow, "visibility.light")) ASSERT_EQ(alpha, 0);
 }
 
 // Row 24: where one triangle runs from 0.1 m to 9 km, plates 1 cm before and behind it at 9 km are told from it.
@@ -307,8 +307,9 @@ TEST(Segal1992Shadow, PercentageCloserFilteringGivesMultiplesOfOneOverTheTaps) {
   // Bilinear taps: finer than multiples of 1/4.
   ShadowSettings bilinear;
   bilinear.filter = ShadowFilter::bilinear;
+  const LayeredImage ramp = visibility_of(bilinear);
   int fine = 0;
-  for (const float alpha : values_of(visibility_of(bilinear), "visibility.light")) {
+  for (const float alpha : values_of(ramp, "visibility.light")) {
     fine += alpha * 4 != std::round(alpha * 4) ? 1 : 0;
   }
   EXPECT_GT(fine, 500);

@@ -12,8 +12,10 @@ namespace laterna::reference {
 
 /// The values of a channel; throws std::runtime_error where there is none of that name.
 std::span<const float> values_of(const LayeredImage& image, const std::string& channel);
+std::span<const float> values_of(LayeredImage&&, const std::string&) = delete;  // they live in the picture
 /// One row, left to right.
 std::span<const float> row_of(const LayeredImage& image, const std::string& channel, int y);
+std::span<const float> row_of(LayeredImage&&, const std::string&, int) = delete;
 
 /// Where a profile crosses `threshold`, linearly between pixel centres; the centre of pixel i is at i + 0.5.
 std::vector<double> crossings(std::span<const float> values, double threshold);
