@@ -17,6 +17,7 @@
 #include "scene/assimp_files.h"
 #include "scene/assimp_materials.h"
 #include "scene/fault_list.h"
+#include "scene/ply_header.h"
 #include "scene/spelling.h"
 #include "scene/surface_attributes.h"
 #include "scene/vertex_joining.h"
@@ -223,6 +224,27 @@ class SceneConverter {
   Scene scene_;
 };
 
+// What Assimp's later steps take for granted, and what cut files break: every face has its indices, and they name
+// vertices. An empty string where it holds.
+std::string find_fault(const aiScene& source) {
+  for (unsigned m = 0; m < source.mNumMeshes; ++m) {
+    const aiMesh& mesh = *source.mMeshes[m];
+    if ((mesh.mNumVertices > 0 && mesh.mVertices == nullptr) ||
+        (mesh.mNumFaces > 0 && mesh.mFaces == nullptr))
+      return fmt::format("mesh {} lacks its vertices or faces", m);
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices > 0 && face.mIndices == nullptr)
+        return fmt::format("face {} lacks its indices", f);
+      for (unsigned corner = 0; corner < face.mNumIndices; ++corner) {
+        if (face.mIndices[corner] < mesh.mNumVertices) continue;
+        return fmt::format("face {} refers to vertex {} of {}", f, face.mIndices[corner], mesh.mNumVertices);
+      }
+    }
+  }
+  return {};
+}
+
 Result<Scene> import(Assimp::Importer& importer, const std::filesystem::path& file,
                      const LoadOptions& options) {
   FaultList faults(file.string());
@@ -233,9 +255,14 @@ Result<Scene> import(Assimp::Importer& importer, const std::filesystem::path& fi
                                                           aiComponent_TANGENTS_AND_BITANGENTS);
   const unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_RemoveComponent |
                          aiProcess_FlipUVs | (lower_case_ending(file) == ".fbx" ? aiProcess_GlobalScale : 0U);
-  const aiScene* source = importer.ReadFile(file.string(), steps);
-  if (source == nullptr) {
-    faults.error({}, fmt::format("cannot be read: {}", importer.GetErrorString()));
+  const aiScene* source = importer.ReadFile(file.string(), 0);
+  std::string fault = source == nullptr ? importer.GetErrorString() : find_fault(*source);
+  if (fault.empty()) {
+    source = importer.ApplyPostProcessing(steps);
+    if (source == nullptr) fault = importer.GetErrorString();
+  }
+  if (!fault.empty()) {
+    faults.error({}, fmt::format("cannot be read: {}", fault));
     return tl::unexpected(Error(Failure::bad_input, faults.errors()));
   }
   // Where the named library is missing Assimp also tries one called like the model: that one was never asked
@@ -270,6 +297,10 @@ Result<Scene> read_mesh_file(const std::filesystem::path& file, const LoadOption
   if (problem) return fault("cannot be read: " + problem.message());
   if (size > kMaxMeshFileBytes)
     return fault(fmt::format("{} bytes are more than {}", size, kMaxMeshFileBytes));
+  if (lower_case_ending(file) == ".ply") {
+    if (Result<void> checked = check_ply_header(file, size); !checked)
+      return tl::unexpected(std::move(checked.error()));
+  }
   try {
     Assimp::Importer importer;
     return import(importer, file, options);

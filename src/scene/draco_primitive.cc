@@ -1,8 +1,12 @@
 #include "scene/draco_primitive.h"
 
 #include <draco/compression/decode.h>
+#include <draco/compression/point_cloud/point_cloud_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -33,12 +37,47 @@ std::optional<ComponentType> component_type_of(draco::DataType type) {
   }
 }
 
+// The library holds its sequential method to the size of the data, but takes memory for as many triangles as an
+// Edgebreaker header claims. Its symbols take a bit per triangle, or less where they repeat; no mesh comes near this.
+constexpr std::uint64_t kMostTrianglesPerByte = 1000;
+
+// The number of triangles in an Edgebreaker header; 0 for another method, and where the library will see for itself that
+// the header is broken. `buffer` is a copy: reading it does not move the decoder's.
+std::uint64_t claimed_triangles(draco::DecoderBuffer buffer) {
+  draco::DracoHeader header;
+  if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) return 0;
+  if (header.encoder_method != draco::MESH_EDGEBREAKER_ENCODING) return 0;
+  const auto version =
+      static_cast<std::uint16_t>(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+  buffer.set_bitstream_version(version);
+  if (version >= DRACO_BITSTREAM_VERSION(1, 3) && (header.flags & METADATA_FLAG_MASK) != 0) {
+    draco::GeometryMetadata metadata;
+    if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata)) return 0;
+  }
+  std::uint8_t traversal = 0;
+  if (!buffer.Decode(&traversal)) return 0;
+  const auto read = [&](std::uint32_t& number) {  // fixed width before bitstream 2.0
+    return version < DRACO_BITSTREAM_VERSION(2, 0) ? buffer.Decode(&number)
+                                                   : draco::DecodeVarint(&number, &buffer);
+  };
+  std::uint32_t new_vertices = 0, vertices = 0, triangles = 0;
+  if (version < DRACO_BITSTREAM_VERSION(2, 2) && !read(new_vertices)) return 0;
+  if (!read(vertices) || !read(triangles)) return 0;
+  return std::max<std::uint64_t>(triangles, vertices / 3);
+}
+
 }  // namespace
 
 tl::expected<DracoMesh, std::string> DracoMesh::decode(std::span<const std::byte> compressed) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(compressed.data()), compressed.size());
   try {
+    const std::uint64_t claimed = claimed_triangles(buffer);
+    if (claimed > compressed.size() * kMostTrianglesPerByte) {
+      return tl::unexpected(
+          fmt::format("the compressed mesh claims {} triangles, which cannot come out of {} bytes", claimed,
+                      compressed.size()));
+    }
     draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok()) {

@@ -78,6 +78,23 @@ TEST(SceneTruncation, EveryChangedByteOfAGlbIsReadOrRefused) {
   }
 }
 
+// Corners of a triangle, as the little-endian floats of a binary file.
+std::string triangle_floats() {
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  return {reinterpret_cast<const char*>(corners), sizeof corners};
+}
+
+std::string binary_ply() {
+  return "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+         triangle_floats() + std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+}
+
+std::string binary_stl() {
+  return std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(12, '\0') + triangle_floats() +
+         std::string(2, '\0');
+}
+
 TEST(SceneTruncation, NoCutOfAMeshFileCrashes) {
   const TemporaryFolder folder;
   const std::pair<const char*, std::string> files[] = {
@@ -88,7 +105,9 @@ TEST(SceneTruncation, NoCutOfAMeshFileCrashes) {
        "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
       {"a.stl",
        "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
-       "0\nendloop\nendfacet\nendsolid t\n"}};
+       "0\nendloop\nendfacet\nendsolid t\n"},
+      {"b.ply", binary_ply()},
+      {"b.stl", binary_stl()}};
   for (const auto& [name, content] : files) {
     ASSERT_TRUE(load_scene({folder.write(name, content)}).has_value());
     for (std::size_t length = 0; length < content.size(); ++length) {
