@@ -1,5 +1,9 @@
 #include "frame/texture_library.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace laterna::frame {
@@ -28,6 +32,19 @@ std::set<Request> requests(const Scene& scene) {
 Result<Image> decode(const Picture& picture) {
   if (!picture.encoded.empty()) return decode_image(picture.encoded, picture.name);
   return read_image(picture.file);
+}
+
+// A texel that is no number would spread over every level of the picture, and from there over what is rendered.
+void check_values(const Image& image, const Picture& picture, std::vector<Diagnostic>& faults) {
+  const std::span<const float> values = image.values<float>();
+  const auto bad = std::find_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); });
+  if (bad == values.end()) return;
+  const auto pixel =
+      static_cast<std::size_t>(bad - values.begin()) / static_cast<std::size_t>(image.channels());
+  const auto width = static_cast<std::size_t>(image.width());
+  const std::string name = picture.name.empty() ? picture.file.string() : picture.name;
+  faults.push_back({name, fmt::format("pixel {}, {}", pixel % width, pixel / width),
+                    fmt::format("expected finite numbers in a picture that is used, got {}", *bad)});
 }
 
 }  // namespace
@@ -63,6 +80,8 @@ Result<TextureLibrary> TextureLibrary::load(const Scene& scene, const TaskPool& 
       }
       pixels = &*decoded;
     }
+    check_values(*pixels, picture, faults[i]);
+    if (!faults[i].empty()) return;
     for (const image::MipUse use : uses) {
       library.chains_.at({index, use}) =
           std::make_unique<image::MipChain>(image::make_mip_chain(*pixels, use));

@@ -351,5 +351,30 @@ TEST(RenderEdges, BeautyIsFiniteWhereverLightsAndCamerasStand) {
   }
 }
 
+TEST(RenderEdges, PicturesThatHoldNoNumbersAreRefused) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (const float bad : {kInfinity, -kInfinity, std::nanf("")}) {
+    Scene scene = everything();
+    auto image = std::make_shared<Image>(8, 6, 3, PixelType::f32, Transfer::linear);
+    image->values<float>()[3 * (8 * 4 + 5) + 2] = bad;
+    Picture picture;
+    picture.name = "broken.exr";
+    picture.pixels = image;
+    scene.pictures.push_back(picture);
+    const int index = static_cast<int>(scene.pictures.size()) - 1;
+    EXPECT_TRUE(Renderer::create(scene));  // nothing uses it
+    for (const bool is_slide : {true, false}) {
+      Scene with = scene;
+      (is_slide ? with.lights.back().slide : with.materials[0].base_color_texture.picture) = index;
+      const Result<Renderer> renderer = Renderer::create(std::move(with));
+      ASSERT_FALSE(renderer);
+      EXPECT_EQ(renderer.error().failure, Failure::bad_input);
+      const std::string text = std::isnan(bad) ? "nan" : bad > 0 ? "inf" : "-inf";
+      EXPECT_EQ(to_string(renderer.error()),
+                "broken.exr: pixel 5, 4: expected finite numbers in a picture that is used, got " + text);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace laterna
