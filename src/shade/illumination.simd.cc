@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "base/vectors-inl.h"
@@ -149,15 +150,20 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
     f.v = hn::IfThenElse(valid, hn::Load(d, coordinates->t.data() + i), f.v);
   }
   const auto in_frame = hn::And(hn::And(f.u >= zero, f.u <= one), hn::And(f.v >= zero, f.v <= one));
+  const Vector3 from_light = Load3(samples.x_ws, samples.y_ws, samples.z_ws, i) - Splat3(light.position_ws);
+  const auto along = Dot(from_light, Splat3(light.forward_ws));
   auto shines = point.is_ahead;
+  // Parallel light comes from the lens too, or from where its frustum begins behind it (row 58).
+  if (light.is_orthographic) {
+    const double lens = std::min(light.light->projection.near, 0.0);
+    shines = hn::And(shines, along > Splat(static_cast<float>(lens)));
+  }
   if (light.light->outside == Outside::black) shines = hn::And(shines, in_frame);
   const auto nan = Splat(std::numeric_limits<float>::quiet_NaN());
   hn::Store(hn::IfThenElse(shines, f.u, nan), d, irradiance.slide_s.data() + i);
   hn::Store(hn::IfThenElse(shines, f.v, nan), d, irradiance.slide_t.data() + i);
   if (hn::AllFalse(d, shines)) return {Splat3(light.color), Splat3(light.forward_ws), shines};
 
-  const Vector3 from_light = Load3(samples.x_ws, samples.y_ws, samples.z_ws, i) - Splat3(light.position_ws);
-  const auto along = Dot(from_light, Splat3(light.forward_ws));
   Arriving arriving;
   FloatVector intensity;
   if (light.is_orthographic) {
