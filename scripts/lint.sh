@@ -18,6 +18,8 @@ else
   done)
 fi
 # GCC's precompiled headers are not for clang: without them the headers themselves are read.
+mkdir -p "$build/lint"
+sed -E 's/-Winvalid-pch|-include [^ ]*cmake_pch\.hxx//g' "$build/compile_commands.json" >"$build/lint/compile_commands.json"
 printf '%s\n' "${files[@]}" |
-  xargs -P "${JOBS:-$(nproc)}" -n 1 clang-tidy-16 --quiet --warnings-as-errors='*' -p "$build" 2> >(
+  xargs -P "${JOBS:-$(nproc)}" -n 1 clang-tidy-16 --quiet --warnings-as-errors='*' -p "$build/lint" 2> >(
     grep -Ev '^[0-9]+ warnings? (and [0-9]+ errors? )?generated|^Suppressed|^Use -header-filter' >&2)
