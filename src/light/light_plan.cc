@@ -27,13 +27,18 @@ struct Range {
     low = std::min(low, centre - reach);
     high = std::max(high, centre + reach);
   }
+  void include(const Range& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+  }
   [[nodiscard]] bool is_empty() const { return low > high; }
   [[nodiscard]] double length() const { return high - low; }
 };
 
-// Extent of the casters along an axis of the light.
+// Extent of the casters along the axes of the light, and how far along it there is anything at all.
 struct CasterExtent {
   Range x, y, depth;
+  double farthest = -std::numeric_limits<double>::infinity();
 };
 
 CasterExtent casters_along(const Pose& pose, const Frame& frame) {
@@ -41,17 +46,21 @@ CasterExtent casters_along(const Pose& pose, const Frame& frame) {
   const glm::dvec3 axes[3] = {pose.right_ws(), pose.up_ws(), pose.forward_ws()};
   Range* ranges[3] = {&extent.x, &extent.y, &extent.depth};
   for (const Cluster& c : frame.clusters) {
-    if ((c.flags & kCastsShadow) == 0) continue;
     const glm::dvec3 low(c.low_ws[0], c.low_ws[1], c.low_ws[2]);
     const glm::dvec3 high(c.high_ws[0], c.high_ws[1], c.high_ws[2]);
     const glm::dvec3 centre = 0.5 * (low + high) - pose.position_ws;
+    Range here[3];
     for (int k = 0; k < 3; ++k)
-      ranges[k]->include(glm::dot(axes[k], centre), glm::dot(glm::abs(axes[k]), 0.5 * (high - low)));
+      here[k].include(glm::dot(axes[k], centre), glm::dot(glm::abs(axes[k]), 0.5 * (high - low)));
+    extent.farthest = std::max(extent.farthest, here[2].high);
+    if ((c.flags & kCastsShadow) == 0) continue;
+    for (int k = 0; k < 3; ++k) ranges[k]->include(here[k]);
   }
   return extent;
 }
 
-// The smallest box of the light's axes around all that casts. What lies outside it is lit, so receivers do not count.
+// The smallest box of the light's axes around all that casts, and as deep as anything receives. What lies beside it is
+// lit, so receivers do not count for its width.
 // The map's texels are squares: its sides are shared out by the box's proportions.
 ShadowView fit_to_casters(const Pose& pose, const Frame& frame, int resolution) {
   CasterExtent extent = casters_along(pose, frame);
@@ -79,7 +88,7 @@ ShadowView fit_to_casters(const Pose& pose, const Frame& frame, int resolution) 
                             y - 0.5 * texel * shadow.height,
                             y + 0.5 * texel * shadow.height,
                             extent.depth.low - margin,
-                            extent.depth.high + margin};
+                            std::max(extent.depth.high, extent.farthest) + margin};
   return shadow;
 }
 
