@@ -131,7 +131,7 @@ Image paint_slide(int width, int height) {
     const float sun = glm::length((q - glm::vec2(0.70F, 0.40F)) * glm::vec2(aspect, 1));
     colour = glm::mix(colour, glm::vec3(1.0F, 0.93F, 0.55F), 1 - glm::smoothstep(0.085F, 0.10F, sun));
     for (int range = 0; range < 3; ++range) {
-      const float far = static_cast<float>(range);
+      const auto far = static_cast<float>(range);
       const float ridge = kShore - 0.30F + 0.10F * far +
                           0.18F * (clouds({0.6F * q.x + 0.31F * far, 0.17F * far}, 5 + range) - 0.35F) * 1.6F;
       if (q.y > ridge)
