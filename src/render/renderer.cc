@@ -9,6 +9,7 @@
 #include "render/camera_views.h"
 #include "render/depth_map_cache.h"
 #include "render/metadata.h"
+#include "render/open_sheets.h"
 #include "render/picture_writer.h"
 #include "render/settings_check.h"
 #include "scene/surface_attributes.h"
@@ -228,6 +229,7 @@ Result<Renderer> Renderer::create(Scene scene, const RendererOptions& options) {
   if (Result<void> checked = render::check_options(options); !checked) return tl::unexpected(checked.error());
   add_default_light(scene);
   add_missing_tangents(scene);
+  render::warn_of_open_sheets(scene);
   auto implementation = std::make_unique<Implementation>(std::move(scene), options);
   if (Result<void> built = implementation->load(); !built) return tl::unexpected(std::move(built.error()));
   return Renderer(std::move(implementation));

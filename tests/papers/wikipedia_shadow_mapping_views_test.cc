@@ -265,6 +265,21 @@ TEST(WikipediaShadowMapping, BackFacesAloneLeaveNoAcneOnClosedMeshesAtZeroBias) 
   EXPECT_EQ(back.far_false_lit, 0) << to_string(back);
 }
 
+// Row 81: open sheets are flagged.
+TEST(WikipediaShadowMapping, OpenSheetsAreFlaggedWhereBackFacesAloneCast) {
+  ShadowScene shown = torus_and_box(1);  // on a floor
+  EXPECT_TRUE(make_renderer(shown.scene).scene().warnings.empty());
+  shown.scene.lights[0].shadow.caster_faces = CasterFaces::back_only;
+  const Renderer renderer = make_renderer(shown.scene);
+  ASSERT_EQ(renderer.scene().warnings.size(), 1U);
+  EXPECT_EQ(
+      renderer.scene().warnings[0].message,
+      "mesh \"floor\" is not closed: light \"light\" draws only back faces into its shadow map, and where it "
+      "falls on the mesh's front there is no shadow");
+  shown.scene.nodes[0].casts_shadow = false;
+  EXPECT_TRUE(make_renderer(shown.scene).scene().warnings.empty());
+}
+
 // Row 82: the map's own matrix and a homogeneous divide lead back to the texel that saw a point.
 TEST(WikipediaShadowMapping, LightSpaceCoordinatesLeadToTheTexelThatSawThePoint) {
   for (const LightType type : {LightType::spot, LightType::directional, LightType::projector}) {
