@@ -29,11 +29,12 @@ struct PendingOutput::Slot {
   Slot* next = nullptr;
   std::array<char, PATH_MAX> path = {};
 
-  static std::atomic<Slot*> first;  // NOLINT(*-global-variables): a signal handler has nothing else to go by
+  // A signal handler has nothing else to go by.
+  static std::atomic<Slot*> first;  // NOLINT(*-global-variables)
 };
 
-constinit std::atomic<PendingOutput::Slot*> PendingOutput::Slot::first =
-    nullptr;  // NOLINT(*-global-variables)
+// NOLINTNEXTLINE(*-global-variables)
+constinit std::atomic<PendingOutput::Slot*> PendingOutput::Slot::first = nullptr;
 
 static_assert(std::atomic<SlotState>::is_always_lock_free && std::atomic<void*>::is_always_lock_free,
               "a signal handler may touch only atomics without locks");
