@@ -102,8 +102,8 @@ std::vector<int> scene_roots(const JsonDocument& json, const Hierarchy& tree, Fa
   if (list == nullptr) return {};
   std::vector<int> roots = node_list(json, *list, tree.values.size(), faults);
   std::vector<bool> is_listed(tree.values.size(), false);
-  for (std::size_t i = 0; i < roots.size(); ++i) {
-    const auto node = static_cast<std::size_t>(roots[i]);
+  for (const int index : roots) {
+    const auto node = static_cast<std::size_t>(index);
     if (tree.parent[node] >= 0) {
       object.error("nodes",
                    fmt::format("nodes[{}] is a child of nodes[{}] and so no root", node, tree.parent[node]));

@@ -61,7 +61,7 @@ class SceneBuilder {
 
  private:
   // The thing's own name; where that is missing or belongs to another node already, the node's.
-  static std::string name_for(const std::string& own, const std::string& node, std::string fallback,
+  static std::string name_for(const std::string& own, const std::string& node, const std::string& fallback,
                               UniqueNames& names) {
     if (!own.empty() && !names.is_taken(own)) return names.take(own);
     if (!node.empty()) return names.take(node);

@@ -286,7 +286,7 @@ std::size_t JsonDocument::line(const JsonValue& value) const {
 }
 
 std::string JsonDocument::place(const JsonValue& value) const {
-  const std::string where = path_of(value);
+  std::string where = path_of(value);
   if (place_ == Place::path) return where;
   return fmt::format("line {}{}{}", line(value), where.empty() ? "" : ": ", where);
 }

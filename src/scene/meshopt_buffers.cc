@@ -25,7 +25,7 @@ void store(std::byte* to, T value) {
 // The extension's round(): halves away from zero. Hostile data may lie outside the target's range.
 template <class T>
 T rounded(float value) {
-  constexpr float most = static_cast<float>((1 << (8 * sizeof(T) - 1)) - 1);
+  constexpr auto most = static_cast<float>((1 << (8 * sizeof(T) - 1)) - 1);
   const float limited = std::min(std::max(value, -most), most);
   return static_cast<T>(static_cast<int>(limited + (limited >= 0 ? 0.5F : -0.5F)));
 }
@@ -33,7 +33,7 @@ T rounded(float value) {
 // "Filter 1: octahedral" of the extension's text, for signed components of 8 or 16 bits.
 template <class T>
 void decode_octahedral(std::byte* element) {
-  constexpr float most = static_cast<float>((1 << (8 * sizeof(T) - 1)) - 1);
+  constexpr auto most = static_cast<float>((1 << (8 * sizeof(T) - 1)) - 1);
   const float one = load<T>(element + 2 * sizeof(T));
   if (one == 0) {  // corrupt; a zero normal is replaced by the surface's later
     std::memset(element, 0, 3 * sizeof(T));

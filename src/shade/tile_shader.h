@@ -43,6 +43,8 @@ class TileShader {
  public:
   explicit TileShader(const ShaderJob& job);
   ~TileShader();
+  TileShader(const TileShader&) = delete;
+  TileShader& operator=(const TileShader&) = delete;
 
   /// The result is valid until the next call.
   const TileResult& shade(int tile_x, int tile_y);
