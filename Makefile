@@ -57,7 +57,7 @@ test-tsan: ## every test with ThreadSanitizer
 	@scripts/install-deps.sh build
 	@$(call configure,tsan)
 	@$(call build,tsan)
-	@export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1; \
+	@export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$(CURDIR)/tests/tsan.supp"; \
 	$(call ctest,tsan)
 
 test-scalar: ## every test with kernels of one lane only

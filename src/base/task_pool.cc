@@ -8,7 +8,46 @@
 #include <optional>
 #include <thread>
 
+#ifdef __SANITIZE_THREAD__
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
 namespace laterna {
+namespace {
+
+// Debian's TBB is not built with ThreadSanitizer, which therefore does not see that TBB starts workers after what came
+// before the loop and joins them before what comes after it. These two say so; elsewhere they are nothing.
+void publish([[maybe_unused]] void* what) {
+#ifdef __SANITIZE_THREAD__
+  __tsan_release(what);
+#endif
+}
+void observe([[maybe_unused]] void* what) {
+#ifdef __SANITIZE_THREAD__
+  __tsan_acquire(what);
+#endif
+}
+
+struct Loop {
+  std::size_t count;
+  const std::function<void(std::size_t, int)>& body;
+  std::atomic<std::size_t> next = 0;
+
+  void run(int worker) {
+    observe(this);
+    for (std::size_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) body(i, worker);
+    publish(this);
+  }
+};
+
+// What TBB copies from task to task: nothing but where the loop is.
+struct LoopReference {
+  Loop* loop;
+  void operator()(int worker) const { loop->run(worker); }
+};
+
+}  // namespace
 
 struct TaskPool::Arena {
   explicit Arena(int threads) : arena(threads) {
@@ -33,11 +72,11 @@ void TaskPool::for_each(std::size_t count, const std::function<void(std::size_t,
     for (std::size_t i = 0; i < count; ++i) body(i, 0);
     return;
   }
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&](int worker) {
-    for (std::size_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) body(i, worker);
-  };
-  arena_->arena.execute([&] { tbb::parallel_for(0, workers, work, tbb::simple_partitioner()); });
+  Loop loop{count, body};
+  publish(&loop);
+  arena_->arena.execute(
+      [&] { tbb::parallel_for(0, workers, LoopReference{&loop}, tbb::simple_partitioner()); });
+  observe(&loop);
 }
 
 }  // namespace laterna
