@@ -54,8 +54,9 @@ void fill_from_blocks(const TileOrigin& origin, std::span<const SurfaceGroups::B
     const std::size_t block = blocks[group].block;
     const std::size_t first = group * kGroupSize;
     s.active[group] = blocks[group].mask;
-    const float x = origin.x + static_cast<float>(block % raster::kBlocksPerSide * 4);
-    const float y = origin.y + static_cast<float>(block / raster::kBlocksPerSide * 4);
+    const auto column = block % raster::kBlocksPerSide, row = block / raster::kBlocksPerSide;
+    const float x = origin.x + static_cast<float>(column * 4);
+    const float y = origin.y + static_cast<float>(row * 4);
     for (std::size_t i = 0; i < kGroupSize; ++i) {
       s.x[first + i] = x + static_cast<float>(i & 3U);
       s.y[first + i] = y + static_cast<float>(i >> 2U);
@@ -75,8 +76,9 @@ void fill_from_fragments(const TileOrigin& origin, std::span<const raster::Fragm
   for (std::size_t i = 0; i < indices.size(); ++i) {
     const raster::Fragment& fragment = fragments[indices[i]];
     const std::uint32_t block = fragment.pixel / kGroupSize;
-    s.x[i] = origin.x + static_cast<float>(block % raster::kBlocksPerSide * 4 + (fragment.pixel & 3U));
-    s.y[i] = origin.y + static_cast<float>(block / raster::kBlocksPerSide * 4 + (fragment.pixel >> 2U & 3U));
+    const auto column = block % raster::kBlocksPerSide, row = block / raster::kBlocksPerSide;
+    s.x[i] = origin.x + static_cast<float>(column * 4 + (fragment.pixel & 3U));
+    s.y[i] = origin.y + static_cast<float>(row * 4 + (fragment.pixel >> 2U & 3U));
     s.q[i] = fragment.reversed_depth;
     s.id[i] = fragment.id;
     s.pixel[i] = indices[i];

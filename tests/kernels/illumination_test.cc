@@ -63,7 +63,7 @@ struct Points {
 
  private:
   void add(std::size_t i, std::mt19937& random, std::uniform_real_distribution<float>& unit,
-           std::uniform_real_distribution<float>& metres) {
+           std::uniform_real_distribution<float>& metres) const {
     shadow::SurfaceSamples& s = *samples;
     SurfacePoints& p = *points;
     s.x[i] = 640 * (unit(random) - 0.5F);
@@ -398,7 +398,7 @@ TEST_P(Illumination, EveryModelReflectsByItsFormula) {
         const reference::SurfacePoint point = points.at(i);
         const glm::dvec3 to_light = glm::normalize(t.pose.position_ws - points.position(i, 0, 0));
         const glm::dvec3 factor = expected_reflection(c.settings, point, to_light);
-        const double share = static_cast<double>(alpha[i]);
+        const auto share = static_cast<double>(alpha[i]);
         for (int k = 0; k < 3; ++k) {
           const double e = vector_at(irradiance->r, irradiance->g, irradiance->b, i)[k] * share;
           const double allowed =

@@ -293,7 +293,7 @@ TEST(Segal1992Shadow, PercentageCloserFilteringGivesMultiplesOfOneOverTheTaps) {
     settings.filter = ShadowFilter::percentage_closer;
     settings.kernel = kernel;
     const LayeredImage image = visibility_of(settings);
-    const float taps = static_cast<float>(kernel * kernel);
+    const auto taps = static_cast<float>(kernel * kernel);
     std::vector<int> counts(static_cast<std::size_t>(kernel * kernel + 1));
     for (const float alpha : values_of(image, "visibility.light")) {
       const float lit = std::round(alpha * taps);

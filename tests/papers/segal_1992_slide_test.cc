@@ -44,6 +44,7 @@ TEST(Segal1992Slide, CheckerCellsAreAsWideAsDistanceAndFieldSay) {
       EXPECT_NEAR(edges[i + 1] - edges[i], expected, 0.5) << i;
     // And as high as they are wide: through the middle of a column.
     std::vector<float> column;
+    column.reserve(kHeight);
     for (int y = 0; y < kHeight; ++y)
       column.push_back(at(image, "R", kWidth / 2 + static_cast<int>(expected / 2), y));
     const std::vector<double> rows = crossings(column, 0.5);

@@ -46,9 +46,10 @@ BiasEffect effect_of_bias(const ShadowSettings& settings) {
   seen.layers = {Layer::visibility};
   const LayeredImage image = render(renderer, above, seen);
   const std::span<const float> row = row_of(image, "visibility.light", kSide / 2);
-  int pixel = kSide / 2;  // behind the sheet
+  constexpr int kMiddle = kSide / 2;
+  int pixel = kMiddle;  // behind the sheet
   while (pixel < kSide && row[static_cast<std::size_t>(pixel)] >= 0.5F) ++pixel;
-  const double gap = (pixel - kSide / 2) * 2 * kFloorHalf / kSide;
+  const double gap = (pixel - kMiddle) * 2 * kFloorHalf / kSide;
   effect.gap_texels = gap / std::sqrt(2.0) / kTexel;
   return effect;
 }

@@ -386,7 +386,7 @@ TEST(Conventions, P4_SamplesLieInDirect3DsStandardPatterns) {
     for (const shade::SampleOffset& o : shade::sample_offsets(count)) all.insert({o.x, o.y});
     return all;
   };
-  const auto sixteenths = [](std::set<std::pair<int, int>> pattern) {
+  const auto sixteenths = [](const std::set<std::pair<int, int>>& pattern) {
     std::set<std::pair<int, int>> all;
     for (const auto& [x, y] : pattern) all.insert({16 * x, 16 * y});
     return all;

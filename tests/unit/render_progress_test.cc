@@ -90,6 +90,7 @@ TEST(RenderReentrancy, FourCallersAtOnceGetWhatTheyGetOneAfterTheOther) {
     for (int i = 0; i < 4; ++i) expected[static_cast<std::size_t>(i)] = draw(other, i);
     for (int round = 0; round < 3; ++round) {
       std::vector<std::thread> callers;
+      callers.reserve(4);
       for (int i = 0; i < 4; ++i) {
         callers.emplace_back([&, i] { got[static_cast<std::size_t>(i)] = draw(renderer, i); });
       }

@@ -117,6 +117,7 @@ TEST(RenderTarget, TargetsThatCannotHoldThePictureAreRefused) {
   std::vector<float> memory(90 * 70);
   std::vector<std::uint8_t> bytes(90 * 70 * 4);
   const Renderer& renderer = everything_renderer();
+  // The target's pointer is one to write to. NOLINTNEXTLINE(readability-non-const-parameter)
   const auto with_channel = [&](const char* name, float* pixels, std::size_t stride) {
     return error_of(renderer, small_settings(), {{}, {{name, pixels, stride}}});
   };
@@ -272,7 +273,7 @@ TEST(RenderSettingsCheck, ViewsThatSeeNothingAreRefused) {
             "the view: the frustum's sides must be finite (is the field of view 180° or more?)");
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::string bad_place =
-      "the view: its position must be finite, and no farther than 1e12 m from the origin";
+      "the view: its position must be finite, and no farther than 1e9 m from the origin";
   for (int i = 0; i < 3; ++i) {
     for (const double value : {static_cast<double>(std::nanf("")), kInfinity, -kInfinity, 2e12}) {
       EXPECT_EQ(error_with([&](View& v) { v.pose.position_ws[i] = value; }), bad_place);
