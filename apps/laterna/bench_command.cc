@@ -127,7 +127,9 @@ int run_bench(const Options& options) {
   if (options.workload.empty() && options.scene.files.empty()) {
     return report(bad_option("bench needs a SCENE or --workload"));
   }
-  if (options.frames < 1 || options.warm_up < 0) return report(bad_option("--frames must be at least 1"));
+  if (options.warm_up < 0) return report(bad_option("--warm-up must be at least 0"));
+  if (options.picture == "-") return report(bad_option("bench prints to standard output: give --png a file"));
+  if (options.frames < 1) return report(bad_option("--frames must be at least 1"));
   Result<Prepared> prepared = options.workload.empty() ? prepare_scene(options) : prepare_workload(options);
   if (!prepared) return report(prepared.error());
   RenderSettings& settings = prepared->settings;

@@ -7,6 +7,7 @@
 
 #include "laterna/image.h"
 #include "outcome.h"
+#include "scene_options.h"
 
 namespace laterna::app {
 namespace {
@@ -67,6 +68,12 @@ nlohmann::json difference_json(const Comparison& comparison) {
 }
 
 int run_diff(const Options& options) {
+  if (options.output == "-") return report(bad_option("diff prints to standard output: give -o a file"));
+  const DifferenceLimits& l = options.limits;
+  for (const double limit :
+       {l.fail, l.fail_percent, l.hard_fail, l.warn, l.warn_percent, l.hard_warn, options.scale}) {
+    if (!(limit >= 0)) return report(bad_option("limits and --scale must be numbers of at least 0"));
+  }
   const Result<LayeredImage> a = read_layered_image(options.a, ChannelValues::stored);
   if (!a) return report(a.error());
   const Result<LayeredImage> b = read_layered_image(options.b, ChannelValues::stored);

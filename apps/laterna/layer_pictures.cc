@@ -20,18 +20,19 @@ struct LayerChannels {
   std::vector<const Channel*> channels;
 };
 
-bool is_component(std::string_view suffix) {
-  constexpr std::string_view kComponents[] = {"R", "G", "B", "A", "X", "Y", "Z", "u", "v"};
-  return std::ranges::find(kComponents, suffix) != std::end(kComponents);
+bool begins_with(std::string_view name, std::string_view start) {
+  return name.substr(0, start.size()) == start;
 }
 
-/// "light.sun.G" belongs to "light.sun"; beauty is "R", "G", "B" and "A".
+/// "light.sun.G" belongs to "light.sun"; beauty is "R", "G", "B" and "A". A light may be named "left.R", so what is cut
+/// off depends on the kind of layer, not on how the name ends.
 std::string layer_of(const std::string& channel) {
   if (channel == "Z") return "depth";
-  if (is_component(channel)) return "beauty";
-  const std::size_t dot = channel.rfind('.');
-  if (dot == std::string::npos || !is_component(std::string_view(channel).substr(dot + 1))) return channel;
-  return channel.substr(0, dot);
+  if (channel.find('.') == std::string::npos) return "beauty";
+  const bool is_whole = begins_with(channel, "visibility.") || channel == "id.object" ||
+                        channel == "pass.1.z" ||
+                        (begins_with(channel, "pass.2.") && channel.ends_with(".alpha"));
+  return is_whole ? channel : channel.substr(0, channel.rfind('.'));
 }
 
 LayeredImage picture_like(const LayeredImage& image) {
@@ -104,8 +105,6 @@ Result<LayeredImage> depth_ramp(const LayeredImage& image, const Channel& depth)
   only.channels.push_back({"Z", depth.values});
   return depth_picture(only);
 }
-
-bool begins_with(const std::string& name, std::string_view start) { return name.rfind(start, 0) == 0; }
 
 /// What radiance is: beauty, ambient, each light, and the frame buffers of the passes.
 LayeredImage exposed(const LayeredImage& image, const LayerChannels& layer, float exposure) {

@@ -77,7 +77,8 @@ Result<RenderSettings> parse_settings(const RenderOptions& options) {
   }
   for (const std::string& name : options.layers) {
     for (const LayerDescription& layer : list_layers()) {
-      if (name == layer.name || name == "all") settings.layers.push_back(layer.layer);
+      const bool is_there = layer.layer != Layer::passes || settings.passes == Passes::multi;
+      if (name == layer.name || (name == "all" && is_there)) settings.layers.push_back(layer.layer);
     }
   }
   return settings;
@@ -105,7 +106,7 @@ Result<float> parse_exposure(const std::string& text) {
     return tl::unexpected(
         bad_option(fmt::format("--exposure: expected stops from -60 to 60, or \"auto\", got \"{}\"", text)));
   }
-  return static_cast<float>(std::exp2(stops));
+  return exposure_from_stops(stops);
 }
 
 bool has_ending(const std::string& name, const char* ending) {
@@ -177,6 +178,9 @@ class RenderCommand {
   }
 
   [[nodiscard]] std::string find_output_fault(const RenderSettings& settings) const {
+    const bool has_passes = std::ranges::find(settings.layers, Layer::passes) != settings.layers.end();
+    if (has_passes && settings.passes != Passes::multi) return "--layers passes needs --passes multi";
+    if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
     if (!settings.layers.empty() && !has_ending(options_.output, ".exr") && options_.layer_pictures.empty()) {
       return "--layers: only OpenEXR holds layers: give an output that ends in .exr, or --layer-pictures "
              "FOLDER";
@@ -194,6 +198,11 @@ class RenderCommand {
     write.depth = kDepth.at(options_.depth);
     write.threads = renderer.threads();
     const bool is_debug = !options_.debug.empty();
+    // In half precision the lights' layers would no longer add up to beauty.
+    const bool has_light_layers = std::ranges::find(settings.layers, Layer::light) != settings.layers.end();
+    if (has_light_layers && has_ending(options_.output, ".exr") && options_.depth == "auto") {
+      write.depth = WriteOptions::Depth::single;
+    }
     if (!is_debug) {
       write.exposure = exposure == 0 ? automatic_exposure(*image) : exposure;
       if (!has_ending(options_.output, ".exr")) advise_exposure(*image, write.exposure);
@@ -303,7 +312,10 @@ void declare_render(CLI::App& app, Run& run) {
                       "folder for a PNG of each layer, beside the output");
   command->add_option("--exposure", o.exposure, "stops, or auto; for .png and .hdr")->capture_default_str();
   command->add_option("--background", o.background, "R,G,B in linear light, or transparent (PNG with alpha)");
-  command->add_option("--depth", o.depth, "of the output: 8 or 16 bits (PNG), half or float (EXR)")
+  command
+      ->add_option(
+          "--depth", o.depth,
+          "of the output: 8 or 16 bits (PNG), half or float (EXR; float by default with layers of lights)")
       ->check(CLI::IsMember(names_of(kDepth)))
       ->capture_default_str();
   command->add_option("--debug", o.debug,

@@ -152,8 +152,11 @@ class Renderer {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// 2^stops: the same number on every machine.
+float exposure_from_stops(double stops);
+
 /// Factor that brings a picture's log-mean luminance to middle grey (0.18), from its R, G, B and A channels (Reinhard
-/// et al., Photographic tone reproduction for digital images, 2002). 1 for a picture without light.
+/// et al., Photographic tone reproduction for digital images, 2002). 1 for a picture without light or without these channels.
 float automatic_exposure(const LayeredImage& image);
 
 }  // namespace laterna

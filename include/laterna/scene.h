@@ -229,9 +229,10 @@ Result<Scene> load_scene(const std::vector<std::filesystem::path>& files, const 
 inline constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 28;
 inline constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 28;
 inline constexpr std::uint64_t kMaxPlacedTriangles = std::uint64_t{1} << 31;
-/// Metres from the origin, of any surface, camera or light: products of three such lengths stay finite in single
-/// precision.
-inline constexpr double kMaxCoordinate = 1e12;
+/// Metres from the origin, of any surface, camera or light. Beyond, single precision has lost all detail.
+inline constexpr double kMaxCoordinate = 1e9;
+/// Largest factor or component of a colour or radiance: products of three stay finite in single precision.
+inline constexpr double kMaxRadiance = 1e12;
 
 /// Every fault of a scene: indices out of range, node cycles, attributes of unequal length, values not finite,
 /// frustums that are no frustums. Empty when it can be rendered.

@@ -242,6 +242,18 @@ Bounds bounds_of(const std::vector<Cluster>& clusters) {
 
 }  // namespace
 
+std::size_t count_clusters(const Scene& scene, const ClusteredMeshes& meshes) {
+  std::size_t count = 0;
+  for (const Node& node : scene.nodes) {
+    if (node.mesh < 0) continue;
+    std::size_t of_mesh = 0;
+    for (const ClusteredPrimitive& part : meshes[static_cast<std::size_t>(node.mesh)])
+      of_mesh += part.clusters.size();
+    count += of_mesh * std::max<std::size_t>(node.node_from_instance.size(), 1);
+  }
+  return count;
+}
+
 void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
                     const std::vector<glm::dmat4>& world_from_node, const TaskPool& pool, Frame& frame) {
   std::vector<PlacedPart> placed = place_parts(scene, meshes, world_from_node, frame);

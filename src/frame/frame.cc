@@ -43,7 +43,8 @@ std::vector<Diagnostic> find_far_objects(const Frame& frame) {
   for (const Cluster& cluster : frame.clusters) {
     bool is_near = true;
     for (int k = 0; k < 3; ++k)
-      is_near &= std::abs(cluster.low_ws[k]) <= kFarthest && std::abs(cluster.high_ws[k]) <= kFarthest;
+      is_near &=
+          std::abs(cluster.low_ws[k]) <= kMaxCoordinate && std::abs(cluster.high_ws[k]) <= kMaxCoordinate;
     if (is_near || cluster.object == last) continue;
     last = cluster.object;
     faults.push_back(
@@ -61,6 +62,14 @@ Result<Frame> Frame::build(const Scene& scene, std::shared_ptr<const TextureLibr
   for (const Material& material : scene.materials)
     frame.surfaces.push_back(make_surface(material, *frame.textures));
   frame.surfaces.push_back(make_surface(Material{}, *frame.textures));
+  if (const std::size_t clusters = count_clusters(scene, meshes); clusters > kMaxClusters) {
+    return tl::unexpected(
+        Error(Failure::bad_input,
+              Diagnostic{{},
+                         {},
+                         "the scene's meshes and instances need " + std::to_string(clusters) +
+                             " clusters of triangles; at most " + std::to_string(kMaxClusters) + " fit"}));
+  }
   flatten_meshes(scene, meshes, world_from_nodes(scene), pool, frame);
   if (std::vector<Diagnostic> faults = find_far_objects(frame); !faults.empty()) {
     return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
@@ -79,17 +88,6 @@ std::size_t Frame::triangle_count() const {
   std::size_t count = 0;
   for (const Cluster& cluster : clusters) count += cluster.triangle_count;
   return count;
-}
-
-std::size_t Frame::memory_bytes() const {
-  std::size_t floats = 0;
-  for (const auto* array :
-       {&x_ws, &y_ws, &z_ws, &normal_x_ws, &normal_y_ws, &normal_z_ws, &uv_u[0], &uv_u[1], &uv_v[0], &uv_v[1],
-        &color_r, &color_g, &color_b, &color_a, &tangent_x_ws, &tangent_y_ws, &tangent_z_ws, &tangent_sign}) {
-    floats += array->capacity();
-  }
-  return floats * sizeof(float) + corners.capacity() * sizeof(std::uint32_t) +
-         clusters.capacity() * sizeof(Cluster) + streams.capacity() * sizeof(ClusterStreams);
 }
 
 }  // namespace laterna::frame

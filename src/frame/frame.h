@@ -58,8 +58,8 @@ struct ClusterStreams {
 };
 inline constexpr std::uint32_t kNoStream = 0xFFFFFFFFU;
 
-/// Coordinates beyond this many metres have lost all detail in single precision.
-inline constexpr float kFarthest = 1e9F;
+/// Triangle ids are cluster · 128 + triangle, and kernels gather with 32-bit signed indices.
+inline constexpr std::size_t kMaxClusters = std::size_t{1} << 24U;
 
 struct Bounds {
   glm::vec3 low{0}, high{0};
@@ -69,7 +69,7 @@ struct Bounds {
 class Frame {
  public:
   /// The scene must have passed validate(), and outlive the frame. `textures` and `meshes` are the scene's.
-  /// Error: an instance lies farther out than kFarthest.
+  /// Error: an instance lies farther out than kMaxCoordinate, or there are more than kMaxClusters clusters.
   static Result<Frame> build(const Scene& scene, std::shared_ptr<const TextureLibrary> textures,
                              const ClusteredMeshes& meshes, const TaskPool& pool);
 
@@ -80,7 +80,6 @@ class Frame {
     return {x_ws.data(), y_ws.data(), z_ws.data(), corners.data(), clusters};
   }
   [[nodiscard]] std::size_t triangle_count() const;
-  [[nodiscard]] std::size_t memory_bytes() const;
 
   // Vertices, one entry per cluster vertex, readable 16 entries beyond the last.
   AlignedVector<float> x_ws, y_ws, z_ws;

@@ -100,10 +100,4 @@ const image::MipChain* TextureLibrary::find(int picture, image::MipUse use) cons
   return found == chains_.end() ? nullptr : found->second.get();
 }
 
-std::size_t TextureLibrary::memory_bytes() const {
-  std::size_t bytes = 0;
-  for (const auto& [key, chain] : chains_) bytes += chain->memory_bytes();
-  return bytes;
-}
-
 }  // namespace laterna::frame

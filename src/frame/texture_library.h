@@ -21,8 +21,6 @@ class TextureLibrary {
   /// Null where `picture` is −1 or was not asked for with this use.
   [[nodiscard]] const image::MipChain* find(int picture, image::MipUse use) const;
 
-  [[nodiscard]] std::size_t memory_bytes() const;
-
  private:
   std::map<std::pair<int, image::MipUse>, std::unique_ptr<image::MipChain>> chains_;
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,9 @@ tl::unexpected<Error> incomparable(std::string message) {
 using ChannelPair = std::pair<const Channel*, const Channel*>;
 
 Result<void> check_sizes(const LayeredImage& a, const LayeredImage& b) {
+  for (const LayeredImage* image : {&a, &b}) {
+    if (std::string fault = find_picture_fault(*image); !fault.empty()) return incomparable(std::move(fault));
+  }
   if (a.width == b.width && a.height == b.height) return {};
   return incomparable("the pictures differ in size: " + std::to_string(a.width) + " x " +
                       std::to_string(a.height) + " and " + std::to_string(b.width) + " x " +

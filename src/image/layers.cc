@@ -1,6 +1,8 @@
 #include "image/layers.h"
 
 #include <cstddef>
+#include <set>
+#include <string_view>
 
 #include "base/elementary.h"
 #include "image/colour.h"
@@ -96,6 +98,26 @@ std::string channel_names(const LayeredImage& image) {
   std::string names;
   for (const Channel& channel : image.channels) names += (names.empty() ? "" : " ") + channel.name;
   return names.empty() ? "none" : names;
+}
+
+std::string find_picture_fault(const LayeredImage& image) {
+  const auto is_side = [](int side) { return side >= 1 && side <= kMaxImageSide; };
+  if (!is_side(image.width) || !is_side(image.height)) {
+    return "the picture is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+           " pixels; each side must be from 1 to " + std::to_string(kMaxImageSide);
+  }
+  if (image.channels.empty()) return "the picture has no channels";
+  std::set<std::string_view> names;
+  for (const Channel& channel : image.channels) {
+    if (channel.name.empty()) return "a channel has no name";
+    if (!names.insert(channel.name).second) return "two channels are named \"" + channel.name + "\"";
+    if (channel.values.size() !=
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
+      return "channel \"" + channel.name + "\" has " + std::to_string(channel.values.size()) +
+             " values; the picture is " + std::to_string(image.width) + " x " + std::to_string(image.height);
+    }
+  }
+  return {};
 }
 
 }  // namespace laterna::image

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "laterna/image.h"
 
@@ -25,5 +26,9 @@ void unmultiplied_row(const ColourChannels& channels, int channel, int width, in
 
 /// "R G B Z": for messages.
 std::string channel_names(const LayeredImage& image);
+
+/// What is wrong with a picture that a caller has put together: its size, its channels' names and lengths; empty if
+/// nothing is.
+std::string find_picture_fault(const LayeredImage& image);
 
 }  // namespace laterna::image

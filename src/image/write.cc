@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <new>
-#include <set>
 
 #include "base/output_file.h"
 #include "image/encoder.h"
@@ -40,26 +39,6 @@ std::string find_fault(const WriteOptions& options) {
   return {};
 }
 
-std::string find_fault(const LayeredImage& image) {
-  const auto is_side = [](int side) { return side >= 1 && side <= kMaxImageSide; };
-  if (!is_side(image.width) || !is_side(image.height)) {
-    return "the picture is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-           " pixels; each side must be from 1 to " + std::to_string(kMaxImageSide);
-  }
-  if (image.channels.empty()) return "the picture has no channels";
-  std::set<std::string_view> names;
-  for (const Channel& channel : image.channels) {
-    if (channel.name.empty()) return "a channel has no name";
-    if (!names.insert(channel.name).second) return "two channels are named \"" + channel.name + "\"";
-    if (channel.values.size() !=
-        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
-      return "channel \"" + channel.name + "\" has " + std::to_string(channel.values.size()) +
-             " values; the picture is " + std::to_string(image.width) + " x " + std::to_string(image.height);
-    }
-  }
-  return {};
-}
-
 // True where a PNG can hold the pixels as they are.
 bool is_stored_depth(const Image& image, const WriteOptions& options) {
   using Depth = WriteOptions::Depth;
@@ -93,7 +72,7 @@ Result<void> write_image(const LayeredImage& picture, const std::filesystem::pat
     if (std::string fault = image::find_fault(options); !fault.empty()) {
       return image::cannot_hold(name, std::move(fault));
     }
-    if (std::string fault = image::find_fault(picture); !fault.empty()) {
+    if (std::string fault = image::find_picture_fault(picture); !fault.empty()) {
       return image::cannot_hold(name, std::move(fault));
     }
     const Result<image::EncodedBytes> bytes = (*encode)(picture, options, name);

@@ -15,8 +15,11 @@ constexpr int kDefaultResolution = 2048;
 constexpr int kDefaultFaceResolution = 1024;
 constexpr int kMaxResolution = 16384;
 
-// Shadow maps of point and spot lights see what is this far from the light. Reversed depth loses nothing by it.
-constexpr double kNearestCaster = 0.01;
+// Where shadow maps of point and spot lights begin: before the nearest caster, but no farther than this. Reversed depth
+// loses nothing by it.
+constexpr double kFarthestNear = 0.01;
+// Light inside a cluster's box: a share of the scene's size, so that toys and planets are treated alike.
+constexpr double kSmallestNear = 1e-5;
 
 // Cones wider than this are drawn on the faces of a cube: one plane would spend its texels on the rim.
 constexpr double kWidestSingleView = 75;  // degrees of half angle
@@ -92,8 +95,36 @@ ShadowView fit_to_casters(const Pose& pose, const Frame& frame, int resolution) 
   return shadow;
 }
 
+double distance_to(const Cluster& c, const glm::dvec3& point) {
+  const glm::dvec3 low(c.low_ws[0], c.low_ws[1], c.low_ws[2]);
+  const glm::dvec3 high(c.high_ws[0], c.high_ws[1], c.high_ws[2]);
+  return glm::distance(point, glm::clamp(point, low, high));
+}
+
+// The near plane of a light that has none: no caster is nearer, unless it touches the light.
+double near_plane(const PlacedLight& placed, const Frame& frame) {
+  double nearest = kFarthestNear;
+  double extent = 0;
+  for (const Cluster& c : frame.clusters) {
+    if ((c.flags & kCastsShadow) == 0) continue;
+    // A face of a cube is 1/√3 as far as its corner.
+    nearest = std::min(nearest, 0.5 * distance_to(c, placed.pose.position_ws));
+    for (int k = 0; k < 3; ++k) extent = std::max(extent, static_cast<double>(c.high_ws[k]) - c.low_ws[k]);
+  }
+  return std::max(nearest, std::min(kFarthestNear, kSmallestNear * extent));
+}
+
+// How far a shadow map of a point or spot light must see. Range limits only those that fade by it.
+double far_plane(const Light& light) {
+  const bool ends =
+      light.attenuation == Attenuation::gltf_windowed || light.attenuation == Attenuation::linear;
+  return ends ? light.range : std::numeric_limits<double>::infinity();
+}
+
 // +X, −X, +Y, −Y, +Z, −Z of the world; up is chosen to be no neighbour's direction of view.
-std::vector<ShadowView> cube_views(const Pose& pose, const ShadowSettings& settings, double range) {
+std::vector<ShadowView> cube_views(const Pose& pose, const ShadowSettings& settings, double near,
+                                   double far) {
+  // Texels beyond a face's own directions, for filters at its edges.
   const int border = 2 + settings.kernel / 2;
   const int side = settings.resolution + 2 * border;
   const double half = static_cast<double>(side) / settings.resolution;
@@ -106,9 +137,8 @@ std::vector<ShadowView> cube_views(const Pose& pose, const ShadowSettings& setti
     shadow.view.pose = *Pose::look_at(pose.position_ws, pose.position_ws + gaze, up);
     // look_at normalises (target − position), which rounds where the position is far from the origin.
     shadow.view.pose.world_from_view_rotation = glm::dmat3(glm::cross(gaze, up), up, -gaze);
-    shadow.view.projection = {false, -half, half, -half, half, kNearestCaster, range};
+    shadow.view.projection = {false, -half, half, -half, half, near, far};
     shadow.width = shadow.height = side;
-    shadow.border = border;
     views.push_back(shadow);
   }
   return views;
@@ -117,27 +147,25 @@ std::vector<ShadowView> cube_views(const Pose& pose, const ShadowSettings& setti
 std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& frame,
                                      const ShadowSettings& settings) {
   const Light& light = *placed.light;
-  const double range = light.range;
   switch (light.type) {
     case LightType::directional:
       if (light.fit) return {fit_to_casters(placed.pose, frame, settings.resolution)};
-      return {{{placed.pose, light.projection}, settings.resolution, settings.resolution, 0}};
+      return {{{placed.pose, light.projection}, settings.resolution, settings.resolution}};
     case LightType::projector:
-      return {{placed.view, settings.resolution, settings.resolution, 0}};
+      return {{placed.view, settings.resolution, settings.resolution}};
     case LightType::spot: {
       const double half_angle = light.outer_cone.in_degrees();
       if (half_angle > kWidestSingleView) break;
       // A little wider than the cone, for the filter at its rim.
       const Angle field = Angle::degrees(std::min(2 * half_angle * 1.01 + 0.1, 2 * kWidestSingleView + 2));
-      return {{{placed.pose, Projection::perspective(field, 1, kNearestCaster, range)},
+      return {{{placed.pose, Projection::perspective(field, 1, near_plane(placed, frame), far_plane(light))},
                settings.resolution,
-               settings.resolution,
-               0}};
+               settings.resolution}};
     }
     case LightType::point:
       break;
   }
-  return cube_views(placed.pose, settings, range);
+  return cube_views(placed.pose, settings, near_plane(placed, frame), far_plane(light));
 }
 
 }  // namespace

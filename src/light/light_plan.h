@@ -12,8 +12,6 @@ namespace laterna::light {
 struct ShadowView {
   View view;
   int width = 0, height = 0;  // texels
-  /// Part of the map that stands for directions of its own; texels beyond only feed filters (cube faces).
-  int border = 0;
 };
 
 struct PlannedLight {

@@ -1,9 +1,19 @@
 #include "laterna/measure.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace laterna {
 
 Result<PointReport> inspect_point(const Renderer& renderer, const View& camera, int width, int height,
                                   const std::string& light, const glm::dvec3& point_ws) {
+  const auto refuse = [](std::string message) {
+    return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}));
+  };
+  if (!std::isfinite(point_ws.x) || !std::isfinite(point_ws.y) || !std::isfinite(point_ws.z)) {
+    return refuse("the point's coordinates must be finite");
+  }
+  if (width < 1 || height < 1) return refuse("the picture's width and height must be at least 1");
   const Result<View> light_view = renderer.light_view(light);
   if (!light_view) return tl::unexpected(light_view.error());
   PointReport report;
@@ -20,7 +30,10 @@ Result<PointReport> inspect_point(const Renderer& renderer, const View& camera, 
   const glm::dvec4 texture = report.texture_from_world * world;
   report.texture = glm::dvec3(texture) / texture.w;
   report.distance = -(light_view->view_from_world() * world).z;
-  report.is_ahead = light_view->projection.is_orthographic || report.distance > 0;
+  // As the shading has it: nothing behind the lens, nor before the near plane of parallel light, is lit.
+  const Projection& projection = light_view->projection;
+  report.is_ahead =
+      projection.is_orthographic ? report.distance > std::min(projection.near, 0.0) : report.distance > 0;
   const auto in_unit = [](double v) { return v >= 0 && v <= 1; };
   report.is_inside = report.is_ahead && in_unit(report.texture.x) && in_unit(report.texture.y);
   return report;

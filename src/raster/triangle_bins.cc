@@ -233,14 +233,4 @@ BinStatistics TriangleBins::statistics() const {
   return sum;
 }
 
-std::size_t TriangleBins::memory_bytes() const {
-  std::size_t bytes = 0;
-  for (const Batch& batch : batches_) {
-    bytes += batch.triangles.capacity() * sizeof(BinnedTriangle) +
-             batch.planes.capacity() * sizeof(WidePlane) +
-             (batch.offsets.capacity() + batch.entries.capacity()) * sizeof(std::uint32_t);
-  }
-  return bytes;
-}
-
 }  // namespace laterna::raster

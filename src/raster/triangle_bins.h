@@ -115,7 +115,6 @@ class TriangleBins {
 
   [[nodiscard]] std::span<const Batch> batches() const { return {batches_.data(), used_}; }
   [[nodiscard]] BinStatistics statistics() const;
-  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   std::vector<Batch> batches_;

@@ -17,6 +17,10 @@ bool same_view(const light::ShadowView& a, const light::ShadowView& b) {
          p.bottom == q.bottom && p.top == q.top && p.near == q.near && p.far == q.far;
 }
 
+std::size_t tile_count(const shadow::DepthMap& map) {
+  return static_cast<std::size_t>(map.tiles_x()) * static_cast<std::size_t>(map.tiles_y());
+}
+
 }  // namespace
 
 bool DepthMapKey::operator==(const DepthMapKey& other) const {
@@ -44,8 +48,8 @@ shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowV
   const raster::RasteriseDepth rasterise_depth = raster::rasterise_depth_for(context.instruction_set);
   const raster::RasteriseVisibility rasterise_visibility =
       raster::rasterise_visibility_for(context.instruction_set);
-  const auto tiles = static_cast<std::size_t>(map.tiles_x() * map.tiles_y());
-  context.pool.for_each(tiles, [&](std::size_t i, int) {
+  context.pool.for_each(tile_count(map), [&](std::size_t i, int) {
+    if (context.progress != nullptr && context.progress->is_cancelled()) return;
     const int x = static_cast<int>(i) % map.tiles_x();
     const int y = static_cast<int>(i) / map.tiles_x();
     float* tile = map.tile(x, y);
@@ -58,22 +62,32 @@ shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowV
       rasterise_depth(task, tile);
     }
     std::replace(tile, tile + raster::kTilePixels, view.reversed_far, shadow::kNothingSeen);
+    if (context.progress != nullptr) context.progress->advance();
   });
   return map;
 }
 
 DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& key,
                                          const DrawContext& context, bool anew) {
-  const std::lock_guard lock(mutex_);
-  if (entries_.size() <= light) entries_.resize(light + 1);
-  Entry& entry = entries_[light];
-  if (!anew && !entry.maps.empty() && entry.key == key) return {entry.maps, 0};
+  std::unique_lock list_lock(mutex_);
+  Entry& entry = entries_[light];  // stays where it is
+  list_lock.unlock();
+  const std::lock_guard lock(entry.mutex);
+  if (!anew && !entry.maps.empty() && entry.key == key) {
+    if (context.progress != nullptr) {
+      for (const auto& map : entry.maps) context.progress->advance(tile_count(*map));
+    }
+    return {entry.maps, 0};
+  }
   entry.maps.clear();
+  DepthMaps maps;
   for (const light::ShadowView& view : key.views) {
-    entry.maps.push_back(std::make_shared<const shadow::DepthMap>(
+    maps.push_back(std::make_shared<const shadow::DepthMap>(
         draw_depth_map(context, view, key.faces, key.keeps_triangles)));
+    if (context.progress != nullptr && context.progress->is_cancelled()) return {};
   }
   entry.key = key;
+  entry.maps = std::move(maps);
   return {entry.maps, static_cast<int>(entry.maps.size())};
 }
 

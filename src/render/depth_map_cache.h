@@ -1,6 +1,7 @@
 // Shadow maps, drawn when needed and kept while nothing they show has changed (rows 77, 78, 105).
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "frame/frame.h"
 #include "light/light_plan.h"
 #include "render/bins_pool.h"
+#include "render/progress_report.h"
 #include "shadow/depth_map.h"
 
 namespace laterna::render {
@@ -28,9 +30,11 @@ struct DrawContext {
   const TaskPool& pool;
   BinsPool& bins;
   InstructionSet instruction_set;
+  ProgressReport* progress = nullptr;  // told of every tile; asked whether to stop
 };
 
-/// One depth map: a pass that touches nothing but positions, and alpha where a material is cut out (row 76).
+/// One depth map: a pass that touches nothing but positions, and alpha where a material is cut out (row 76). Unfinished
+/// where the caller has asked to stop.
 shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
                                 CasterFaces faces, bool keeps_triangles);
 
@@ -40,17 +44,18 @@ class DepthMapCache {
     DepthMaps maps;
     int drawn = 0;  // 0: all were kept
   };
-  /// The maps of light `light`, drawn if those kept are of something else. Callers that ask at the same time wait.
-  /// `anew`: drawn in any case.
+  /// The maps of light `light`, drawn if those kept are of something else. Callers that ask for the same light at the
+  /// same time wait. `anew`: drawn in any case. No maps where the caller has asked to stop.
   Found find(std::size_t light, const DepthMapKey& key, const DrawContext& context, bool anew);
 
  private:
   struct Entry {
+    std::mutex mutex;
     DepthMapKey key;
     DepthMaps maps;
   };
-  std::mutex mutex_;
-  std::vector<Entry> entries_;
+  std::mutex mutex_;  // of the list
+  std::map<std::size_t, Entry> entries_;
 };
 
 }  // namespace laterna::render

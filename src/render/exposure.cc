@@ -11,11 +11,15 @@ float automatic_exposure(const LayeredImage& image) {
   const Channel* b = image.find("B");
   const Channel* a = image.find("A");
   if (r == nullptr || g == nullptr || b == nullptr) return 1;
+  const std::size_t pixels = r->values.size();
+  if (g->values.size() != pixels || b->values.size() != pixels ||
+      (a != nullptr && a->values.size() != pixels))
+    return 1;
   constexpr double kMiddleGrey = 0.18;
   constexpr double kLeast = 1e-6;  // keeps black from deciding the mean
   double sum = 0;
   std::int64_t count = 0;
-  for (std::size_t i = 0; i < r->values.size(); ++i) {
+  for (std::size_t i = 0; i < pixels; ++i) {
     if (a != nullptr && a->values[i] <= 0) continue;
     const double luminance = 0.2126 * r->values[i] + 0.7152 * g->values[i] + 0.0722 * b->values[i];
     if (!std::isfinite(luminance)) continue;
@@ -27,5 +31,7 @@ float automatic_exposure(const LayeredImage& image) {
   if (mean <= 2 * kLeast) return 1;
   return static_cast<float>(kMiddleGrey / mean);
 }
+
+float exposure_from_stops(double stops) { return static_cast<float>(exponential2(stops)); }
 
 }  // namespace laterna

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -8,17 +7,21 @@
 #include "light/light_plan.h"
 #include "render/camera_views.h"
 #include "render/depth_map_cache.h"
+#include "render/memory_guard.h"
 #include "render/metadata.h"
 #include "render/open_sheets.h"
 #include "render/picture_writer.h"
+#include "render/progress_report.h"
+#include "render/scene_defaults.h"
 #include "render/settings_check.h"
-#include "scene/surface_attributes.h"
 #include "shadow/ray_traced.h"
 #include "shadow/shadow_map.h"
 
 namespace laterna {
 
 using render::BinsPool;
+using render::ProgressReport;
+using render::without_exceptions;
 
 namespace {
 
@@ -37,67 +40,23 @@ int band_count(const frame::Frame& frame, int tile_rows) {
       std::clamp<std::size_t>((bytes + kBinMemory - 1) / kBinMemory, 1, static_cast<std::size_t>(tile_rows)));
 }
 
+int tiles_across(int pixels) { return (pixels + raster::kTileSide - 1) / raster::kTileSide; }
+
+// Tiles of the picture and of its shadow maps.
+std::size_t tile_count(const RenderSettings& settings, const light::LightPlan& plan) {
+  const auto area = [](int width, int height) {
+    return static_cast<std::size_t>(tiles_across(width)) * static_cast<std::size_t>(tiles_across(height));
+  };
+  std::size_t count = area(settings.width, settings.height);
+  for (const light::PlannedLight& planned : plan.lights) {
+    for (const light::ShadowView& shadow : planned.shadow_views) count += area(shadow.width, shadow.height);
+  }
+  return count;
+}
+
 tl::unexpected<Error> refuse(std::string message) {
   return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}));
 }
-
-constexpr float kPi32 = 3.14159265F;
-
-// A scene that brings no light of its own is shown by a sun over the viewer's shoulder.
-void add_default_light(Scene& scene) {
-  const bool has_light =
-      std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.light >= 0; });
-  if (has_light || scene.ambient_is_set) return;
-  Light sun;
-  sun.name = "default sun";
-  sun.type = LightType::directional;
-  sun.intensity = kPi32;  // white, square to the light: 1
-  scene.lights.push_back(sun);
-  Node node;
-  node.name = sun.name;
-  node.light = static_cast<int>(scene.lights.size()) - 1;
-  const Pose pose = *Pose::look_at({-0.4, 1, 0.7}, {0, 0, 0}, {0, 1, 0});
-  node.parent_from_node = pose.world_from_view();
-  scene.nodes.push_back(node);
-  scene.ambient = glm::vec3(0.25F);
-  scene.warnings.push_back(
-      {{}, {}, "the scene has no light: it is lit by a default sun and a little ambient light"});
-}
-
-// Tangents for normal maps, where the caller gave none. Readers of files have done so already.
-void add_missing_tangents(Scene& scene) {
-  FaultList faults("");
-  for (Mesh& mesh : scene.meshes) {
-    for (Primitive& primitive : mesh.primitives) {
-      if (primitive.material < 0 || !primitive.tangents.empty()) continue;
-      const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-      if (material.normal_texture.is_set()) complete_attributes(primitive, &material, {}, mesh.name, faults);
-    }
-  }
-  scene.warnings.insert(scene.warnings.end(), faults.warnings().begin(), faults.warnings().end());
-}
-
-class ProgressReport {
- public:
-  ProgressReport(const Progress& progress, std::size_t steps) : progress_(progress), steps_(steps) {}
-  [[nodiscard]] bool is_cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
-  void step() {
-    done_.fetch_add(1);
-    if (!progress_) return;
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    // Once told to stop, the caller is not asked again.
-    if (!lock.owns_lock() || is_cancelled()) return;
-    // Read under the lock, so that what is reported never goes back.
-    if (!progress_(static_cast<double>(done_.load()) / static_cast<double>(steps_))) cancelled_ = true;
-  }
-
- private:
-  const Progress& progress_;
-  std::size_t steps_;
-  std::atomic<std::size_t> done_ = 0;
-  std::atomic<bool> cancelled_ = false;
-  std::mutex mutex_;
-};
 
 }  // namespace
 
@@ -138,7 +97,9 @@ struct Renderer::Implementation {
     return false;
   }
 
-  [[nodiscard]] render::DrawContext draw_context() const { return {frame, pool, bins, set}; }
+  [[nodiscard]] render::DrawContext draw_context(ProgressReport* progress = nullptr) const {
+    return {frame, pool, bins, set, progress};
+  }
 
   std::shared_ptr<const trace::RayScene> ray_scene() const {
     const std::lock_guard lock(rays_mutex);
@@ -146,11 +107,9 @@ struct Renderer::Implementation {
     return rays;
   }
 
-  std::unique_ptr<shadow::ShadowTechnique> make_technique(const light::PlannedLight& planned,
-                                                          std::size_t index,
-                                                          const raster::RasterView::Ray& ray,
-                                                          const RenderSettings& settings,
-                                                          RenderStatistics& statistics) const {
+  std::unique_ptr<shadow::ShadowTechnique> make_technique(
+      const light::PlannedLight& planned, std::size_t index, const raster::RasterView::Ray& ray,
+      const RenderSettings& settings, RenderStatistics& statistics, ProgressReport& progress) const {
     switch (planned.technique) {
       case ShadowTechnique::none:
         return nullptr;
@@ -162,7 +121,8 @@ struct Renderer::Implementation {
     const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
                                      planned.settings.filter == ShadowFilter::refined, casters_revision};
     const render::DepthMapCache::Found found =
-        maps.find(index, key, draw_context(), !settings.keep_shadow_maps);
+        maps.find(index, key, draw_context(&progress), !settings.keep_shadow_maps);
+    if (found.maps.empty()) return nullptr;  // cancelled
     statistics.maps_drawn += found.drawn;
     statistics.maps_kept += static_cast<int>(found.maps.size()) - found.drawn;
     RenderStatistics::LightMemory memory = {planned.placed->light->name, static_cast<int>(found.maps.size()),
@@ -174,7 +134,8 @@ struct Renderer::Implementation {
 
   // Everything the tiles share, with every shadow technique ready to answer.
   shade::ShaderJob make_job(const raster::RasterView& view, const RenderSettings& settings,
-                            const light::LightPlan& plan, RenderStatistics& statistics) const {
+                            const light::LightPlan& plan, RenderStatistics& statistics,
+                            ProgressReport& progress) const {
     shade::ShaderJob job;
     job.frame = &frame;
     job.view = &view;
@@ -192,7 +153,8 @@ struct Renderer::Implementation {
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
-      job.lights.push_back({bound, make_technique(planned, i, ray, settings, statistics)});
+      if (progress.is_cancelled()) break;
+      job.lights.push_back({bound, make_technique(planned, i, ray, settings, statistics, progress)});
       if (job.wanted.lux && settings.shading == ShadingModel::papers) {
         job.physical_lights.emplace_back(*planned.placed, ray, ShadingModel::phong, settings.anisotropy);
       }
@@ -200,8 +162,18 @@ struct Renderer::Implementation {
     return job;
   }
 
+  Result<RenderStatistics> draw(const View& from, const RenderSettings& settings, const RenderTarget& target,
+                                const Progress& progress) const;
+  void draw_bands(const raster::RasterView& view, const RenderSettings& settings, shade::ShaderJob& job,
+                  const render::PictureWriter& writer, RenderStatistics& statistics,
+                  ProgressReport& progress) const;
+
   [[nodiscard]] Result<light::PlannedLight> planned_light(const std::string& name) const;
-  [[nodiscard]] Result<light::ShadowView> shadow_view(const std::string& name, int face) const;
+  /// The light with the one shadow view of that face.
+  [[nodiscard]] Result<light::PlannedLight> planned_face(const std::string& name, int face) const;
+  [[nodiscard]] Result<LayeredImage> draw_channels(const View& view, const RenderSettings& settings,
+                                                   const Progress& progress,
+                                                   RenderStatistics* statistics) const;
 
   Scene scene;
   TaskPool pool;
@@ -227,12 +199,14 @@ Result<Renderer> Renderer::create(Scene scene, const RendererOptions& options) {
     return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
   }
   if (Result<void> checked = render::check_options(options); !checked) return tl::unexpected(checked.error());
-  add_default_light(scene);
-  add_missing_tangents(scene);
-  render::warn_of_open_sheets(scene);
-  auto implementation = std::make_unique<Implementation>(std::move(scene), options);
-  if (Result<void> built = implementation->load(); !built) return tl::unexpected(std::move(built.error()));
-  return Renderer(std::move(implementation));
+  return without_exceptions([&]() -> Result<Renderer> {
+    render::add_default_light(scene);
+    render::add_missing_tangents(scene);
+    render::warn_of_open_sheets(scene);
+    auto implementation = std::make_unique<Implementation>(std::move(scene), options);
+    if (Result<void> built = implementation->load(); !built) return tl::unexpected(std::move(built.error()));
+    return Renderer(std::move(implementation));
+  });
 }
 
 const Scene& Renderer::scene() const { return implementation_->scene; }
@@ -247,67 +221,76 @@ View Renderer::overview(int width, int height) const {
   return render::overview(implementation_->frame, width, height);
 }
 
-Result<RenderStatistics> Renderer::render_into(const View& from, const RenderSettings& settings,
-                                               const RenderTarget& target, const Progress& progress) const {
-  const Implementation& self = *implementation_;
-  const Clock::time_point start = Clock::now();
-  if (Result<void> checked = render::check_settings(settings, from); !checked)
-    return tl::unexpected(checked.error());
-  Result<render::PictureWriter> writer = render::PictureWriter::create(settings, target, self.frame);
-  if (!writer) return tl::unexpected(std::move(writer.error()));
-
-  RenderStatistics statistics;
-  const light::LightPlan plan = light::make_light_plan(self.frame, {settings.shadows});
-  statistics.plan_ms = milliseconds_since(start);
-
-  const raster::RasterView view(from, settings.width, settings.height);
-  const Clock::time_point shadow_start = Clock::now();
-  shade::ShaderJob job = self.make_job(view, settings, plan, statistics);
-  statistics.shadow_ms = milliseconds_since(shadow_start);
-
-  const int tiles_x = (settings.width + raster::kTileSide - 1) / raster::kTileSide;
-  const int tiles_y = (settings.height + raster::kTileSide - 1) / raster::kTileSide;
-  const int bands = band_count(self.frame, tiles_y);
-  ProgressReport report(progress, static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_y));
-  std::vector<std::unique_ptr<shade::TileShader>> shaders(static_cast<std::size_t>(self.pool.threads()));
-  const auto bins = self.bins.take();
-
+// Triangles sorted by tile, then tiles shaded, one band of tile rows after the other.
+void Renderer::Implementation::draw_bands(const raster::RasterView& view, const RenderSettings& settings,
+                                          shade::ShaderJob& job, const render::PictureWriter& writer,
+                                          RenderStatistics& statistics, ProgressReport& progress) const {
+  const int tiles_x = tiles_across(settings.width);
+  const int tiles_y = tiles_across(settings.height);
+  const int bands = band_count(frame, tiles_y);
+  std::vector<std::unique_ptr<shade::TileShader>> shaders(static_cast<std::size_t>(pool.threads()));
+  const auto binned = bins.take();
   raster::BinOptions options;
   options.cull = raster::CullFaces::single_sided;
   options.required_flags = kVisible;
-  options.instruction_set = self.set;
+  options.instruction_set = set;
   for (const shade::SampleOffset& offset : shade::sample_offsets(settings.samples)) {
     options.sample_reach = std::max({options.sample_reach, std::abs(offset.x), std::abs(offset.y)});
   }
-  for (int band = 0; band < bands && !report.is_cancelled(); ++band) {
+  for (int band = 0; band < bands && !progress.is_cancelled(); ++band) {
     const int first_row = tiles_y * band / bands;
     const int end_row = tiles_y * (band + 1) / bands;
     const Clock::time_point bin_start = Clock::now();
     options.pixels = {0, first_row * raster::kTileSide, settings.width,
                       std::min(end_row * raster::kTileSide, settings.height)};
-    bins->fill(view, self.frame.geometry(), options, self.pool);
-    job.batches = bins->batches();
-    statistics.triangles += bins->statistics().triangles;
-    statistics.triangles_drawn += bins->statistics().triangles_binned;
+    binned->fill(view, frame.geometry(), options, pool);
+    job.batches = binned->batches();
+    statistics.triangles += binned->statistics().triangles;
+    statistics.triangles_drawn += binned->statistics().triangles_binned;
     statistics.bin_ms += milliseconds_since(bin_start);
 
     const Clock::time_point shade_start = Clock::now();
-    self.pool.for_each(static_cast<std::size_t>(tiles_x * (end_row - first_row)),
-                       [&](std::size_t i, int worker) {
-                         if (report.is_cancelled()) return;
-                         auto& shader = shaders[static_cast<std::size_t>(worker)];
-                         if (shader == nullptr) shader = std::make_unique<shade::TileShader>(job);
-                         const int x = static_cast<int>(i) % tiles_x;
-                         const int y = first_row + static_cast<int>(i) / tiles_x;
-                         writer->write(x, y, shader->shade(x, y));
-                         report.step();
-                       });
+    pool.for_each(static_cast<std::size_t>(tiles_x * (end_row - first_row)), [&](std::size_t i, int worker) {
+      if (progress.is_cancelled()) return;
+      auto& shader = shaders[static_cast<std::size_t>(worker)];
+      if (shader == nullptr) shader = std::make_unique<shade::TileShader>(job);
+      const int x = static_cast<int>(i) % tiles_x;
+      const int y = first_row + static_cast<int>(i) / tiles_x;
+      writer.write(x, y, shader->shade(x, y));
+      progress.advance();
+    });
     statistics.shade_ms += milliseconds_since(shade_start);
   }
+}
+
+Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const RenderSettings& settings,
+                                                        const RenderTarget& target,
+                                                        const Progress& progress) const {
+  const Clock::time_point start = Clock::now();
+  if (Result<void> checked = render::check_settings(settings, from); !checked)
+    return tl::unexpected(checked.error());
+  Result<render::PictureWriter> writer = render::PictureWriter::create(settings, target, frame);
+  if (!writer) return tl::unexpected(std::move(writer.error()));
+
+  RenderStatistics statistics;
+  const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows});
+  statistics.plan_ms = milliseconds_since(start);
+  ProgressReport report(progress, tile_count(settings, plan));
+
+  const raster::RasterView view(from, settings.width, settings.height);
+  const Clock::time_point shadow_start = Clock::now();
+  shade::ShaderJob job = make_job(view, settings, plan, statistics, report);
+  statistics.shadow_ms = milliseconds_since(shadow_start);
+  if (!report.is_cancelled()) draw_bands(view, settings, job, *writer, statistics, report);
   if (report.is_cancelled())
     return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
   statistics.total_ms = milliseconds_since(start);
   return statistics;
+}
+
+Result<RenderStatistics> Renderer::render_into(const View& view, const RenderSettings& settings,
+                                               const RenderTarget& target, const Progress& progress) const {
+  return without_exceptions([&] { return implementation_->draw(view, settings, target, progress); });
 }
 
 std::vector<std::string> Renderer::channel_names(const RenderSettings& settings) const {
@@ -318,8 +301,9 @@ std::vector<std::string> Renderer::channel_names(const RenderSettings& settings)
   return names;
 }
 
-Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& settings,
-                                      const Progress& progress, RenderStatistics* statistics) const {
+Result<LayeredImage> Renderer::Implementation::draw_channels(const View& view, const RenderSettings& settings,
+                                                             const Progress& progress,
+                                                             RenderStatistics* statistics) const {
   if (Result<void> checked = render::check_settings(settings, view); !checked)
     return tl::unexpected(checked.error());
   LayeredImage image;
@@ -327,16 +311,23 @@ Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& se
   image.height = settings.height;
   RenderTarget target;
   const auto stride = static_cast<std::size_t>(settings.width);
-  for (const std::string& name : channel_names(settings)) {
-    image.channels.push_back({name, std::vector<float>(stride * static_cast<std::size_t>(settings.height))});
+  for (const render::PictureChannel& channel : render::picture_channels(settings, frame)) {
+    image.channels.push_back(
+        {channel.name, std::vector<float>(stride * static_cast<std::size_t>(settings.height))});
   }
   for (Channel& channel : image.channels)
     target.channels.push_back({channel.name, channel.values.data(), stride});
-  Result<RenderStatistics> done = render_into(view, settings, target, progress);
+  Result<RenderStatistics> done = draw(view, settings, target, progress);
   if (!done) return tl::unexpected(std::move(done.error()));
   if (statistics != nullptr) *statistics = *done;
-  image.metadata = render::describe(settings, view, implementation_->frame);
+  image.metadata = render::describe(settings, view, frame);
   return image;
+}
+
+Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& settings,
+                                      const Progress& progress, RenderStatistics* statistics) const {
+  return without_exceptions(
+      [&] { return implementation_->draw_channels(view, settings, progress, statistics); });
 }
 
 Result<void> Renderer::set_transform(int node, const glm::dmat4& parent_from_node) {
@@ -352,8 +343,8 @@ Result<void> Renderer::set_transform(int node, const glm::dmat4& parent_from_nod
     self.frame.place_lights_and_cameras(self.scene);
     return {};
   }
-  Result<void> built =
-      faults.empty() ? self.rebuild() : tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+  Result<void> built = faults.empty() ? without_exceptions([&] { return self.rebuild(); })
+                                      : tl::unexpected(Error(Failure::bad_input, std::move(faults)));
   if (!built) place = before;
   return built;
 }
@@ -370,7 +361,7 @@ Result<void> Renderer::set_light(int light, Light value) {
     return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
   }
   if (place.slide >= 0 && self.textures->find(place.slide, frame::slide_use(place)) == nullptr) {
-    Result<void> loaded = self.load();
+    Result<void> loaded = without_exceptions([&] { return self.load(); });
     if (!loaded) std::swap(place, value);
     return loaded;
   }
@@ -402,27 +393,29 @@ Result<int> Renderer::depth_map_count(const std::string& light) const {
       [](const light::PlannedLight& planned) { return static_cast<int>(planned.shadow_views.size()); });
 }
 
-Result<light::ShadowView> Renderer::Implementation::shadow_view(const std::string& name, int face) const {
-  const Result<light::PlannedLight> planned = planned_light(name);
-  if (!planned) return tl::unexpected(planned.error());
+Result<light::PlannedLight> Renderer::Implementation::planned_face(const std::string& name, int face) const {
+  Result<light::PlannedLight> planned = planned_light(name);
+  if (!planned) return planned;
   const int count = static_cast<int>(planned->shadow_views.size());
-  if (face >= 0 && face < count) return planned->shadow_views[static_cast<std::size_t>(face)];
-  return refuse("light \"" + name + "\" has " + std::to_string(count) +
-                " depth maps, counted from 0; there is no number " + std::to_string(face));
+  if (face < 0 || face >= count) {
+    return refuse("light \"" + name + "\" has " + std::to_string(count) +
+                  (count == 1 ? " depth map" : " depth maps") + ", counted from 0; there is no number " +
+                  std::to_string(face));
+  }
+  planned->shadow_views = {planned->shadow_views[static_cast<std::size_t>(face)]};
+  return planned;
 }
 
 Result<View> Renderer::depth_map_view(const std::string& light, int face) const {
-  return implementation_->shadow_view(light, face).map([](const light::ShadowView& shadow) {
-    return shadow.view;
+  return implementation_->planned_face(light, face).map([](const light::PlannedLight& planned) {
+    return planned.shadow_views[0].view;
   });
 }
 
-Result<LayeredImage> Renderer::depth_map(const std::string& light, int face) const {
-  const Implementation& self = *implementation_;
-  const Result<light::ShadowView> shadow_view = self.shadow_view(light, face);
-  if (!shadow_view) return tl::unexpected(shadow_view.error());
-  const shadow::DepthMap map =
-      render::draw_depth_map(self.draw_context(), *shadow_view, CasterFaces::both, false);
+namespace {
+
+// Rows of metres, from the top.
+LayeredImage metres_of(const shadow::DepthMap& map) {
   LayeredImage image;
   image.width = map.width();
   image.height = map.height();
@@ -433,6 +426,18 @@ Result<LayeredImage> Renderer::depth_map(const std::string& light, int face) con
     for (int x = 0; x < map.width(); ++x) values.push_back(static_cast<float>(map.distance(x, y)));
   }
   return image;
+}
+
+}  // namespace
+
+Result<LayeredImage> Renderer::depth_map(const std::string& light, int face) const {
+  const Implementation& self = *implementation_;
+  const Result<light::PlannedLight> planned = self.planned_face(light, face);
+  if (!planned) return tl::unexpected(planned.error());
+  return without_exceptions([&]() -> Result<LayeredImage> {
+    return metres_of(render::draw_depth_map(self.draw_context(), planned->shadow_views[0],
+                                            planned->settings.caster_faces, false));
+  });
 }
 
 }  // namespace laterna

@@ -15,13 +15,19 @@ Result<void> refuse(std::string message) {
   return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}));
 }
 
+/// Whether an enumerator is one of those from 0 to `last`.
+template <class Enumeration>
+bool is_known(Enumeration value, Enumeration last) {
+  return static_cast<unsigned>(value) <= static_cast<unsigned>(last);
+}
+
 constexpr int kMaxThreads = 1024;
 
 // Comparisons are written so that NaN fails.
 std::string find_fault(const Pose& pose) {
   const glm::dvec3 at = glm::abs(pose.position_ws);
   if (!(std::max({at.x, at.y, at.z}) <= kMaxCoordinate) || at.y != at.y || at.z != at.z) {
-    return "its position must be finite, and no farther than 1e12 m from the origin";
+    return "its position must be finite, and no farther than 1e9 m from the origin";
   }
   // An angle of a millionth of a radian is what rounding a matrix to single precision may leave.
   constexpr double kRounding = 1e-6;
@@ -63,6 +69,15 @@ Result<void> check_settings(const RenderSettings& settings, const View& view) {
   constexpr int kCounts[] = {1, 2, 4, 8, 16};
   if (std::find(std::begin(kCounts), std::end(kCounts), settings.samples) == std::end(kCounts)) {
     return refuse("samples per pixel must be 1, 2, 4, 8 or 16, not " + std::to_string(settings.samples));
+  }
+  if (!is_known(settings.shading, ShadingModel::pbr) ||
+      !is_known(settings.shadows, ShadowTechnique::raytraced) || !is_known(settings.passes, Passes::multi) ||
+      !is_known(settings.interpolation, Interpolation::affine)) {
+    return refuse(
+        "the settings hold a shading model, shadow technique, passes or interpolation that there is not");
+  }
+  for (const Layer layer : settings.layers) {
+    if (!is_known(layer, Layer::passes)) return refuse("the settings ask for a layer that there is not");
   }
   if (settings.anisotropy < 1 || settings.anisotropy > 16) {
     return refuse("anisotropy must be from 1 to 16, not " + std::to_string(settings.anisotropy));

@@ -66,6 +66,16 @@ class Validator {
     }
   }
 
+  // Values that a cast may have put into an enumeration.
+  template <class Enumeration>
+  void check_enumerator(const std::string& place, Enumeration value, Enumeration last) {
+    const auto number = static_cast<unsigned>(value);
+    if (number > static_cast<unsigned>(last)) {
+      fault(place, fmt::format("{} is no value of the enumeration, which ends at {}", number,
+                               static_cast<unsigned>(last)));
+    }
+  }
+
   void check_reference(const std::string& place, int index, std::size_t count, std::string_view list) {
     if (index >= -1 && (index < 0 || static_cast<std::size_t>(index) < count)) return;
     fault(place, fmt::format("{} is no index into the {} {}, nor -1 for none", index, count, list));
@@ -115,6 +125,11 @@ void Validator::check_pictures() {
 
 void Validator::check_texture(const Texture& texture, const std::string& place) {
   check_reference(place + ".picture", texture.picture, scene_.pictures.size(), "pictures");
+  check_enumerator(place + ".sampler.wrap_u", texture.sampler.wrap_u, Wrap::clamp);
+  check_enumerator(place + ".sampler.wrap_v", texture.sampler.wrap_v, Wrap::clamp);
+  check_enumerator(place + ".sampler.magnify", texture.sampler.magnify, Filter::linear);
+  check_enumerator(place + ".sampler.minify", texture.sampler.minify, Filter::linear);
+  check_enumerator(place + ".sampler.mip", texture.sampler.mip, MipFilter::linear);
   if (texture.uv_set != 0 && texture.uv_set != 1) {
     fault(place + ".uv_set", fmt::format("expected 0 or 1, got {}", texture.uv_set));
   }
@@ -127,12 +142,13 @@ void Validator::check_texture(const Texture& texture, const std::string& place) 
 
 void Validator::check_material(const Material& material, const std::string& place) {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
-  check_color(place + ".base_color", material.base_color, kEndless);
+  check_color(place + ".base_color", material.base_color, kMaxRadiance);
+  check_enumerator(place + ".alpha_mode", material.alpha_mode, AlphaMode::blend);
   check_number(place + ".metallic", material.metallic, 0, 1);
   check_number(place + ".roughness", material.roughness, 0, 1);
   check_number(place + ".normal_scale", material.normal_scale, -1e6, 1e6);
   check_number(place + ".occlusion_strength", material.occlusion_strength, 0, 1);
-  check_color(place + ".emissive", material.emissive, kEndless);
+  check_color(place + ".emissive", material.emissive, kMaxRadiance);
   check_number(place + ".alpha_cutoff", material.alpha_cutoff, 0, kEndless);
   check_texture(material.base_color_texture, place + ".base_color_texture");
   check_texture(material.metallic_roughness_texture, place + ".metallic_roughness_texture");
@@ -252,6 +268,10 @@ void Validator::check_lights() {
 
 void Validator::check_light(const Light& light, const std::string& place) {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
+  check_enumerator(place + ".type", light.type, LightType::projector);
+  check_enumerator(place + ".profile", light.profile, BeamProfile::uniform_candela);
+  check_enumerator(place + ".outside", light.outside, Outside::mirror);
+  check_enumerator(place + ".attenuation", light.attenuation, Attenuation::custom);
   check_color(place + ".color", light.color, kEndless);
   check_number(place + ".intensity", light.intensity, 0, kEndless);
   // Radiance is light per area and angle: it needs room above the intensity itself.
@@ -296,6 +316,10 @@ void Validator::check_light(const Light& light, const std::string& place) {
 }
 
 void Validator::check_shadow(const ShadowSettings& shadow, const std::string& place) {
+  check_enumerator(place + ".technique", shadow.technique.value_or(ShadowTechnique::none),
+                   ShadowTechnique::raytraced);
+  check_enumerator(place + ".filter", shadow.filter, ShadowFilter::percentage_closer);
+  check_enumerator(place + ".caster_faces", shadow.caster_faces, CasterFaces::back_only);
   if (shadow.resolution < 0 || shadow.resolution > kMaxShadowResolution) {
     fault(place + ".resolution", fmt::format("expected from 1 to {}, or 0 for the default, got {}",
                                              kMaxShadowResolution, shadow.resolution));
@@ -312,8 +336,8 @@ void Validator::check_shadow(const ShadowSettings& shadow, const std::string& pl
 
 void Validator::check_whole_scene() {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
-  check_color("ambient", scene_.ambient, kEndless);
-  if (scene_.background) check_color("background", *scene_.background, kEndless);
+  check_color("ambient", scene_.ambient, kMaxRadiance);
+  if (scene_.background) check_color("background", *scene_.background, kMaxRadiance);
   if (!scene_.phong) return;
   check_number("phong.specular", scene_.phong->specular, 0, kEndless);
   check_number("phong.shininess", scene_.phong->shininess, 0, kEndless);

@@ -279,15 +279,14 @@ HWY_INLINE void ForEachMap(const ShadowMapTest& test, const Vector3& position, V
 // this many texels' change along the plane, of the receiver's.
 constexpr float kNearTexels = 1.0F;
 constexpr float kNearSlopes = 0.5F;
-// On a plane as steep as this many texel footprints per texel, what the plane's depth would be at a texel's centre says
-// little about the sample: it may pass in front of what stands before the sample itself.
-constexpr float kSteepSlope = 16.0F;
+// What a texel saw is not the receiver's plane if it lies this many texel footprints beyond it.
+constexpr float kBeyondTexels = 0.25F;
 // A triangle that the light sees smaller than this many texels may have neighbours that no texel saw.
 constexpr float kSmallTexels = 2.0F;
 
 struct FourGaps {
-  FloatMask is_lit[4];  // at the texel's centre nothing is in front of the receiver's plane
-  FloatMask is_far[4];  // something is, and it is no neighbourhood
+  FloatMask is_lit[4];  // what the texel saw stands neither before the receiver's plane nor before the sample
+  FloatMask is_far[4];  // it stands before both, and is no neighbourhood
 };
 
 HWY_INLINE FourGaps FindGaps(const MapReader& reader, const Receiver& r, const Quad& quad) {
@@ -295,16 +294,19 @@ HWY_INLINE FourGaps FindGaps(const MapReader& reader, const Receiver& r, const Q
   const auto neighbourhood =
       Splat(kNearTexels) * r.texel + Splat(kNearSlopes) * (hn::Abs(r.q_dx) + hn::Abs(r.q_dy));
   const auto near = r.rounding + hn::IfThenElseZero(r.faces_light, neighbourhood);
-  const auto is_steep =
-      hn::And(r.faces_light, hn::Abs(r.q_dx) + hn::Abs(r.q_dy) > Splat(kSteepSlope) * r.texel);
+  const auto beyond = r.rounding + Splat(kBeyondTexels) * r.texel;
   FourGaps gaps;
   for (int k = 0; k < 4; ++k) {
     const int i = k & 1, j = k >> 1;
     const auto [stored, tested] = reader.DepthsAt(r, quad.column[i] + quad.row[j], quad.dx[i], quad.dy[j]);
     const auto is_outside = hn::Not(hn::And(quad.column_in[i], quad.row_in[j]));
-    const auto is_behind = hn::AndNot(IsLit(stored, r.q, r.rounding), is_steep);
-    gaps.is_lit[k] = hn::Or(is_outside, hn::AndNot(is_behind, IsLit(stored, tested, r.rounding)));
-    gaps.is_far[k] = hn::AndNot(is_outside, hn::Not(IsLit(stored, tested, near)));
+    // On a slope the plane may pass the texel's centre nearer to the light than what stands before the sample itself,
+    // or farther than what stands behind it.
+    const auto is_before_sample = hn::Not(IsLit(stored, r.q, r.rounding));
+    const auto is_beyond_plane = hn::Not(IsLit(tested, stored, beyond));
+    const auto shades_sample = hn::And(is_before_sample, is_beyond_plane);
+    gaps.is_lit[k] = hn::Or(is_outside, hn::AndNot(shades_sample, IsLit(stored, tested, r.rounding)));
+    gaps.is_far[k] = hn::AndNot(is_outside, hn::AndNot(IsLit(stored, tested, near), is_before_sample));
   }
   return gaps;
 }

@@ -506,9 +506,9 @@ const Case kGltfCases[] = {
      "f.gltf: nodes[0].rotation: expected a unit quaternion, got one without length"},
     {"TranslationFar",
      {{"/nodes/0/translation", "[1e300, 0, 0]"}},
-     "f.gltf: nodes[1]: cameras[0] is more than 1000000000000 m away\n"
-     "f.gltf: nodes[2]: lights[0] is more than 1000000000000 m away\n"
-     "f.gltf: nodes[0]: meshes[0] reaches more than 1000000000000 m from the origin"},
+     "f.gltf: nodes[1]: cameras[0] is more than 1000000000 m away\n"
+     "f.gltf: nodes[2]: lights[0] is more than 1000000000 m away\n"
+     "f.gltf: nodes[0]: meshes[0] reaches more than 1000000000 m from the origin"},
     {"CameraWithoutScale",
      {{"/nodes/1/scale", "[1, 1, 0]"}},
      "f.gltf: nodes[1]: cameras[0] cannot stand here: the matrix has no direction along Z: its third column "

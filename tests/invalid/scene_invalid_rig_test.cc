@@ -83,7 +83,7 @@ const RigCase kRigCases[] = {
      "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 40,\n\"up\": [0, 0, 2]}]}",
      "r.json: line 2: cameras[0].up: up points along the direction of view: give another up"},
     {"CameraFar", "{\"cameras\": [{\"position\": [0,0,1e13], \"target\": [0,0,0], \"yfov_deg\": 40}]}",
-     "r.json: line 1: cameras[0].position[2]: expected a number from -1000000000000 to 1000000000000, got "
+     "r.json: line 1: cameras[0].position[2]: expected a number from -1000000000 to 1000000000, got "
      "10000000000000"},
     {"FieldOfViewZero", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0],\n\n\"yfov_deg\": 0}]}",
      "r.json: line 3: cameras[0].yfov_deg: expected a number between 0 and 180, got 0"},

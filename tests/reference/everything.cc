@@ -205,9 +205,11 @@ View everything_view(int width, int height) {
   return look({0.8, 2.6, 7.5}, {0, 0.9, 0}, 46, static_cast<double>(width) / height);
 }
 
-std::vector<Layer> all_layers() {
+std::vector<Layer> all_layers(Passes passes) {
   std::vector<Layer> layers;
-  for (const LayerDescription& description : list_layers()) layers.push_back(description.layer);
+  for (const LayerDescription& description : list_layers()) {
+    if (description.layer != Layer::passes || passes == Passes::multi) layers.push_back(description.layer);
+  }
   return layers;
 }
 

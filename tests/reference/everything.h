@@ -14,8 +14,8 @@ namespace laterna::reference {
 Scene everything();
 View everything_view(int width, int height);
 
-/// Every layer there is.
-std::vector<Layer> all_layers();
+/// Every layer there is; that of the passes belongs to Passes::multi.
+std::vector<Layer> all_layers(Passes passes = Passes::single);
 
 /// Whether two pictures have the same channels with the same bits (NaN equals itself); if not, says where.
 ::testing::AssertionResult same_bits(const LayeredImage& a, const LayeredImage& b);
