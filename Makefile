@@ -70,10 +70,10 @@ fuzz: ## each fuzzer for 60 s
 	@scripts/install-deps.sh fuzz
 	@scripts/fuzz.sh
 
-install: ## into PREFIX, by default /usr/local
+install: ## the library and the program into PREFIX, by default /usr/local
 	@scripts/install-deps.sh build
 	@$(call configure,release)
-	@$(call build,release)
+	@$(call build,release,--target laterna laterna_cli)
 	@cmake --install build/release $(if $(PREFIX),--prefix $(PREFIX))
 
 clean: ## remove build/ and out/

@@ -32,10 +32,10 @@ echo
 echo "Made in $((milliseconds / 1000)).$(printf %03d $((milliseconds % 1000))) s:"
 while read -r file what; do echo "  $out/$file   $what"; done <<TABLE
 figure3.png           Segal et al. 1992, figure 3: a slide, and the slide on a scene
-figure3_scene.png     the scene alone
+figure3_scene.png     the lit scene by itself
 figure4.png           figure 4: shadow map, spotlight intensity map, both at work
 figure4_shadow_map.png  the shadow map alone: near is light, far is dark
-figure4_result.png    the scene alone
+figure4_result.png    the lit scene by itself
 model_slide.png       the same slide on a model from assimp-testmodels
 model_spotlight.png   the same spotlight on it
 TABLE

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "laterna/image.h"
 #include "outcome.h"
@@ -15,6 +16,7 @@ namespace {
 struct Options {
   std::string a, b, output;
   DifferenceLimits limits;
+  std::optional<double> warn, warn_percent, hard_warn;
   double scale = 4;
   bool json = false;
 };
@@ -67,9 +69,18 @@ nlohmann::json difference_json(const Comparison& comparison) {
           {"pixels_over_fail", d.pixels_over_fail}};
 }
 
+// What only warns is what fails, unless told otherwise.
+DifferenceLimits limits_of(const Options& options) {
+  DifferenceLimits l = options.limits;
+  l.warn = options.warn.value_or(l.fail);
+  l.warn_percent = options.warn_percent.value_or(l.fail_percent);
+  l.hard_warn = options.hard_warn.value_or(l.hard_fail);
+  return l;
+}
+
 int run_diff(const Options& options) {
   if (options.output == "-") return report(bad_option("diff prints to standard output: give -o a file"));
-  const DifferenceLimits& l = options.limits;
+  const DifferenceLimits l = limits_of(options);
   for (const double limit :
        {l.fail, l.fail_percent, l.hard_fail, l.warn, l.warn_percent, l.hard_warn, options.scale}) {
     if (!(limit >= 0)) return report(bad_option("limits and --scale must be numbers of at least 0"));
@@ -78,7 +89,7 @@ int run_diff(const Options& options) {
   if (!a) return report(a.error());
   const Result<LayeredImage> b = read_layered_image(options.b, ChannelValues::stored);
   if (!b) return report(b.error());
-  const Result<Comparison> comparison = compare_images(*a, *b, options.limits);
+  const Result<Comparison> comparison = compare_images(*a, *b, l);
   if (!comparison) return report(comparison.error());
   if (options.json) {
     fmt::print("{}\n", difference_json(*comparison).dump(2));
@@ -106,17 +117,19 @@ void declare_diff(CLI::App& app, Run& run) {
   command->add_option("B", options->b, "picture")->required();
   command->add_option("--fail", l.fail, "a pixel fails when a channel differs by more")
       ->capture_default_str();
-  command->add_option("--failpercent", l.fail_percent, "share of pixels that may fail")
+  command->add_option("--failpercent", l.fail_percent, "percentage of pixels that may fail, 0 to 100")
       ->capture_default_str();
   command->add_option("--hardfail", l.hard_fail, "no pixel may differ by more")->capture_default_str();
-  command->add_option("--warn", l.warn, "like --fail, for a warning")->capture_default_str();
-  command->add_option("--warnpercent", l.warn_percent, "like --failpercent, for a warning")
-      ->capture_default_str();
-  command->add_option("--hardwarn", l.hard_warn, "like --hardfail, for a warning")->capture_default_str();
+  command->add_option("--warn", options->warn, "like --fail, for a warning; default: the same");
+  command->add_option("--warnpercent", options->warn_percent,
+                      "like --failpercent, for a warning; default: the same");
+  command->add_option("--hardwarn", options->hard_warn, "like --hardfail, for a warning; default: the same");
   command->add_option("-o,--output", options->output, "write a picture of the difference");
   command->add_option("--scale", options->scale, "brightness of that picture")->capture_default_str();
   command->add_flag("--json", options->json, "as JSON");
-  command->footer("\nExample:\n  laterna diff before.exr after.exr --fail 0.004 --failpercent 0.1\n");
+  command->footer(
+      "\nPNG and JPEG are compared as they are stored, as numbers from 0 to 1.\n"
+      "\nExample:\n  laterna diff before.exr after.exr --fail 0.004 --failpercent 0.1\n");
   command->callback([options, &run] { run = [options] { return run_diff(*options); }; });
 }
 

@@ -306,11 +306,15 @@ void declare_render(CLI::App& app, Run& run) {
   for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);
   command
       ->add_option("--layers", o.layers, "further channels of an .exr, by comma; --list-layers tells which")
+      ->allow_extra_args(false)
       ->delimiter(',')
       ->check(CLI::IsMember(layers));
   command->add_option("--layer-pictures", o.layer_pictures,
                       "folder for a PNG of each layer, beside the output");
-  command->add_option("--exposure", o.exposure, "stops, or auto; for .png and .hdr")->capture_default_str();
+  command
+      ->add_option("--exposure", o.exposure,
+                   "stops, or auto; for .png: other formats keep the light as it is")
+      ->capture_default_str();
   command->add_option("--background", o.background, "R,G,B in linear light, or transparent (PNG with alpha)");
   command
       ->add_option(

@@ -14,8 +14,10 @@ Error bad_option(std::string message) { return {Failure::bad_usage, Diagnostic{{
 
 void SceneOptions::declare_scene(CLI::App& command) {
   command.add_option("SCENE", files, "glTF, GLB, OBJ, PLY, STL, MD2, …; several are merged")->required();
-  command.add_option("--rig", rigs,
-                     "JSON with cameras, lights and projectors by name; may be given several times");
+  command
+      .add_option("--rig", rigs,
+                  "JSON with cameras, lights and projectors by name; may be given several times")
+      ->allow_extra_args(false);
   command.add_option("--up", up, "which axis points up in formats that do not say")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();

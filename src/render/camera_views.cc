@@ -53,17 +53,27 @@ Result<View> camera_view(const frame::Frame& frame, const std::string& name, int
 
 View overview(const frame::Frame& frame, int width, int height) {
   const Angle yfov = Angle::degrees(40);
-  const double aspect = static_cast<double>(width) / height;
+  const double aspect = static_cast<double>(std::max(width, 1)) / std::max(height, 1);
   const glm::dvec3 low(frame.bounds.low);
   const glm::dvec3 high(frame.bounds.high);
   const glm::dvec3 centre = 0.5 * (low + high);
   const double radius = std::max(0.5 * glm::length(high - low), 1e-6);
-  const double half_angle = 0.5 * yfov.in_radians();
-  const double narrower = arctangent(tangent(half_angle) * std::min(1.0, aspect));
-  const double distance = radius / sine(narrower);
   const glm::dvec3 toward_eye = glm::normalize(glm::dvec3(0.55, 0.35, 1.0));
   View view;
-  view.pose = *Pose::look_at(centre + toward_eye * distance, centre, glm::dvec3(0, 1, 0));
+  view.pose = *Pose::look_at(centre + toward_eye, centre, glm::dvec3(0, 1, 0));
+  // As near as leaves every corner of the bounds in the picture, and a little air around them.
+  constexpr double kAir = 1.06;
+  const double half_height = tangent(0.5 * yfov.in_radians()) / kAir;
+  double distance = 0.01 * radius;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 p = glm::dvec3((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                                    (corner & 4) != 0 ? high.z : low.z) -
+                         centre;
+    const double x = std::abs(glm::dot(p, view.pose.right_ws())) / (half_height * aspect);
+    const double y = std::abs(glm::dot(p, view.pose.up_ws())) / half_height;
+    distance = std::max(distance, std::max(x, y) + glm::dot(p, toward_eye));
+  }
+  view.pose.position_ws = centre + toward_eye * distance;
   view.projection =
       Projection::perspective(yfov, aspect, distance / 1000, std::numeric_limits<double>::infinity());
   return view;

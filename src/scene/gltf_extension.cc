@@ -13,13 +13,12 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 13> kRead = {
+constexpr std::array<std::string_view, 12> kRead = {
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
-    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_texture_transform",

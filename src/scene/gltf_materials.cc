@@ -94,7 +94,11 @@ Material read_material(const JsonDocument& json, const JsonValue& value, Texture
   Material material;
   material.name = object.string("name").value_or("");
   const JsonValue* glossiness = find_extension(value, "KHR_materials_pbrSpecularGlossiness");
-  if (glossiness != nullptr && !object.has("pbrMetallicRoughness")) {
+  // Exporters write an empty pbrMetallicRoughness beside it.
+  const JsonValue* metallic = value.find("pbrMetallicRoughness");
+  const bool has_metallic = metallic != nullptr && !(metallic->is_object() && metallic->children.empty());
+  if (glossiness != nullptr && !has_metallic) {
+    object.any("pbrMetallicRoughness");
     read_specular_glossiness(json, *glossiness, textures, faults, material);
   } else {
     read_metallic_roughness(object, json, textures, faults, material);
