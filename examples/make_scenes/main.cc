@@ -104,7 +104,7 @@ GlbFile make_table() {
   file.add_object("table", table, wood);
   file.add_object("urn", urn({-0.35F, 0.76F, -0.05F}), plaster);
   file.add_object("ring", ring({0.25F, 0.98F, 0.05F}, {1, 0.1F, 0.8F}, 0.16F, 0.06F, 64), red);
-  file.add_object("ball", ball({0.15F, 0.22F, 1.15F}, 0.22F, 32), red);
+  file.add_object("ball", ball({-0.72F, 0.13F, 0.0F}, 0.13F, 32), red);
   file.add_object("column", column({-1.3F, 0, -0.4F}), plaster);
   return file;
 }
