@@ -245,6 +245,91 @@ HWY_INLINE FloatVector Max3(FloatVector a, FloatVector b, FloatVector c) { retur
 HWY_INLINE IntVector Min3(IntVector a, IntVector b, IntVector c) { return hn::Min(hn::Min(a, b), c); }
 HWY_INLINE IntVector Max3(IntVector a, IntVector b, IntVector c) { return hn::Max(hn::Max(a, b), c); }
 
+// N triangles of a cluster: corners in pixels from the view's origin, and snapped to 1/256 pixel.
+struct Corners {
+  IntVector index[3];  // of the cluster's vertices
+  FloatVector x[3], y[3];
+  IntVector snapped_x[3], snapped_y[3];
+};
+
+HWY_INLINE Corners LoadCorners(const SetupTask& task, const ScreenVertices& screen, std::size_t triangle) {
+  const FloatTag d;
+  const IntTag di;
+  const auto subpixels = hn::Set(d, static_cast<float>(kSubpixels));
+  const auto byte = hn::Set(di, 255);
+  // The array is padded with degenerate triangles to a whole cluster.
+  const auto packed = hn::Load(di, reinterpret_cast<const std::int32_t*>(task.geometry->corners + triangle));
+  Corners c;
+  c.index[0] = hn::And(packed, byte);
+  c.index[1] = hn::And(hn::ShiftRight<8>(packed), byte);
+  c.index[2] = hn::And(hn::ShiftRight<16>(packed), byte);
+  for (int k = 0; k < 3; ++k) {
+    c.x[k] = hn::GatherIndex(d, screen.x, c.index[k]);
+    c.y[k] = hn::GatherIndex(d, screen.y, c.index[k]);
+    c.snapped_x[k] = hn::NearestInt(c.x[k] * subpixels);
+    c.snapped_y[k] = hn::NearestInt(c.y[k] * subpixels);
+  }
+  return c;
+}
+
+// The pixels of the picture, or of the band of it that is being drawn.
+class PixelBounds {
+ public:
+  PixelBounds(const RasterView& view, const BinOptions& options)
+      : x_first_(hn::Set(IntTag(), options.pixels.x_begin - view.origin_x)),
+        x_last_(hn::Set(IntTag(), options.pixels.x_end - 1 - view.origin_x)),
+        y_first_(hn::Set(IntTag(), options.pixels.y_begin - view.origin_y)),
+        y_last_(hn::Set(IntTag(), options.pixels.y_end - 1 - view.origin_y)),
+        reach_(options.sample_reach) {}
+
+  // Whether a box of snapped coordinates may hold a sample of one of them.
+  HWY_INLINE hn::Mask<IntTag> Touches(IntVector x_low, IntVector x_high, IntVector y_low,
+                                      IntVector y_high) const {
+    const IntTag di;
+    const auto x_begin = hn::Max(FirstPixel(di, x_low, reach_), x_first_);
+    const auto x_end = hn::Min(LastPixel(di, x_high, reach_), x_last_);
+    const auto y_begin = hn::Max(FirstPixel(di, y_low, reach_), y_first_);
+    const auto y_end = hn::Min(LastPixel(di, y_high, reach_), y_last_);
+    return hn::Not(hn::Or(x_begin > x_end, y_begin > y_end));
+  }
+
+ private:
+  IntVector x_first_, x_last_, y_first_, y_last_;
+  int reach_;
+};
+
+// The corners so that they run clockwise, and the depth plane, from positions before snapping.
+HWY_INLINE void StoreFields(const Corners& c, const FloatVector* q, hn::Mask<IntTag> swap,
+                            SmallFields& fields) {
+  const FloatTag d;
+  const IntTag di;
+  const auto ux = c.x[1] - c.x[0], uy = c.y[1] - c.y[0], uq = q[1] - q[0];
+  const auto vx = c.x[2] - c.x[0], vy = c.y[2] - c.y[0], vq = q[2] - q[0];
+  const auto determinant = ux * vy - vx * uy;
+  // A sliver has no gradient worth the name; q_min and q_max bound it to the truth.
+  const auto is_flat = hn::Abs(determinant) < hn::Set(d, 1e-9F);
+  const auto inverse = hn::Set(d, 1.0F) / hn::IfThenElse(is_flat, hn::Set(d, 1.0F), determinant);
+  hn::Store(hn::IfThenZeroElse(is_flat, (uq * vy - vq * uy) * inverse), d, fields.q_dx);
+  hn::Store(hn::IfThenZeroElse(is_flat, (vq * ux - uq * vx) * inverse), d, fields.q_dy);
+  hn::Store(c.snapped_x[0], di, fields.x[0]);
+  hn::Store(hn::IfThenElse(swap, c.snapped_x[2], c.snapped_x[1]), di, fields.x[1]);
+  hn::Store(hn::IfThenElse(swap, c.snapped_x[1], c.snapped_x[2]), di, fields.x[2]);
+  hn::Store(c.snapped_y[0], di, fields.y[0]);
+  hn::Store(hn::IfThenElse(swap, c.snapped_y[2], c.snapped_y[1]), di, fields.y[1]);
+  hn::Store(hn::IfThenElse(swap, c.snapped_y[1], c.snapped_y[2]), di, fields.y[2]);
+  hn::Store(c.x[0], d, fields.base_x);
+  hn::Store(c.y[0], d, fields.base_y);
+  hn::Store(q[0], d, fields.base_q);
+  hn::Store(Min3(q[0], q[1], q[2]), d, fields.q_min);
+  hn::Store(Max3(q[0], q[1], q[2]), d, fields.q_max);
+}
+
+HWY_INLINE std::uint64_t BitsOf(hn::Mask<IntTag> mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(IntTag(), mask, bits);
+  return bits[0] | std::uint64_t{bits[1]} << 8U;
+}
+
 void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& batch) {
   const FloatTag d;
   const IntTag di;
@@ -252,93 +337,39 @@ void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& bat
   const Cluster& cluster = task.geometry->clusters[task.cluster];
   const Culling culling(cluster, task.options->cull);
   const std::uint32_t kind = KindOf(cluster, *task.options);
-  const Rect& pixels = task.options->pixels;
-  const int reach = task.options->sample_reach;
   const TriangleId first_id = task.cluster << kTriangleBits;
-  const auto x_first = hn::Set(di, pixels.x_begin - view.origin_x);
-  const auto x_last = hn::Set(di, pixels.x_end - 1 - view.origin_x);
-  const auto y_first = hn::Set(di, pixels.y_begin - view.origin_y);
-  const auto y_last = hn::Set(di, pixels.y_end - 1 - view.origin_y);
-  const auto subpixels = hn::Set(d, static_cast<float>(kSubpixels));
-  const auto byte = hn::Set(di, 255);
+  const PixelBounds pixels(view, *task.options);
+  const auto limit = hn::Set(di, kSmallTriangle * kSubpixels);
   SmallFields fields;
 
   for (std::uint32_t first = 0; first < cluster.triangle_count; first += kLanes) {
-    // The array is padded with degenerate triangles to a whole cluster.
-    const auto packed =
-        hn::Load(di, reinterpret_cast<const std::int32_t*>(task.geometry->corners + first_id + first));
-    const auto a = hn::And(packed, byte);
-    const auto b = hn::And(hn::ShiftRight<8>(packed), byte);
-    const auto c = hn::And(hn::ShiftRight<16>(packed), byte);
-    const auto xa = hn::GatherIndex(d, screen.x, a), xb = hn::GatherIndex(d, screen.x, b),
-               xc = hn::GatherIndex(d, screen.x, c);
-    const auto ya = hn::GatherIndex(d, screen.y, a), yb = hn::GatherIndex(d, screen.y, b),
-               yc = hn::GatherIndex(d, screen.y, c);
-    const auto ixa = hn::NearestInt(xa * subpixels), ixb = hn::NearestInt(xb * subpixels),
-               ixc = hn::NearestInt(xc * subpixels);
-    const auto iya = hn::NearestInt(ya * subpixels), iyb = hn::NearestInt(yb * subpixels),
-               iyc = hn::NearestInt(yc * subpixels);
-
-    const auto x_low = Min3(ixa, ixb, ixc), x_high = Max3(ixa, ixb, ixc);
-    const auto y_low = Min3(iya, iyb, iyc), y_high = Max3(iya, iyb, iyc);
-    const auto x_begin = hn::Max(FirstPixel(di, x_low, reach), x_first);
-    const auto x_end = hn::Min(LastPixel(di, x_high, reach), x_last);
-    const auto y_begin = hn::Max(FirstPixel(di, y_low, reach), y_first);
-    const auto y_end = hn::Min(LastPixel(di, y_high, reach), y_last);
-    const auto touched = hn::Not(hn::Or(x_begin > x_end, y_begin > y_end));
+    const Corners c = LoadCorners(task, screen, first_id + first);
+    const IntVector *x = c.snapped_x, *y = c.snapped_y;
+    const auto x_low = Min3(x[0], x[1], x[2]), x_high = Max3(x[0], x[1], x[2]);
+    const auto y_low = Min3(y[0], y[1], y[2]), y_high = Max3(y[0], y[1], y[2]);
+    const auto touched = pixels.Touches(x_low, x_high, y_low, y_high);
     if (hn::AllFalse(di, touched)) continue;
 
-    const auto qa = hn::GatherIndex(d, screen.q, a), qb = hn::GatherIndex(d, screen.q, b),
-               qc = hn::GatherIndex(d, screen.q, c);
-    const auto q_min = Min3(qa, qb, qc), q_max = Max3(qa, qb, qc);
-    const auto limit = hn::Set(di, kSmallTriangle * kSubpixels);
+    FloatVector q[3];
+    for (int k = 0; k < 3; ++k) q[k] = hn::GatherIndex(d, screen.q, c.index[k]);
     auto is_small = hn::Not(hn::Or(x_high - x_low > limit, y_high - y_low > limit));
     if (!view.is_orthographic) {
+      const auto q_min = Min3(q[0], q[1], q[2]), q_max = Max3(q[0], q[1], q[2]);
       is_small = hn::And(is_small, hn::RebindMask(di, q_max <= q_min + q_min));
     }
-
     // Exact where it is used: both differences fit 13 bits with sign for small triangles.
-    const auto area = (ixb - ixa) * (iyc - iya) - (ixc - ixa) * (iyb - iya);
+    const auto area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
     auto kept = area != hn::Zero(di);
     if (culling.front) kept = hn::And(kept, area > hn::Zero(di));
     if (culling.back) kept = hn::And(kept, area < hn::Zero(di));
-    const auto small = hn::And(hn::And(touched, is_small), kept);
-    const auto wide = hn::AndNot(is_small, touched);
 
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(di, wide, bits);
-    std::uint64_t wide_bits = bits[0] | std::uint64_t{bits[1]} << 8U;
-    for (; wide_bits != 0; wide_bits &= wide_bits - 1) {
-      SetUpWide(task, screen, first + static_cast<std::uint32_t>(__builtin_ctzll(wide_bits)), batch);
+    for (std::uint64_t wide = BitsOf(hn::AndNot(is_small, touched)); wide != 0; wide &= wide - 1) {
+      SetUpWide(task, screen, first + static_cast<std::uint32_t>(__builtin_ctzll(wide)), batch);
     }
+    const auto small = hn::And(hn::And(touched, is_small), kept);
     if (hn::AllFalse(di, small)) continue;
-
-    // The depth plane, from positions before snapping.
-    const auto ux = xb - xa, uy = yb - ya, uq = qb - qa, vx = xc - xa, vy = yc - ya, vq = qc - qa;
-    const auto determinant = ux * vy - vx * uy;
-    // A sliver has no gradient worth the name; q_min and q_max bound it to the truth.
-    const auto is_flat = hn::Abs(determinant) < hn::Set(d, 1e-9F);
-    const auto inverse = hn::Set(d, 1.0F) / hn::IfThenElse(is_flat, hn::Set(d, 1.0F), determinant);
-    const auto q_dx = hn::IfThenZeroElse(is_flat, (uq * vy - vq * uy) * inverse);
-    const auto q_dy = hn::IfThenZeroElse(is_flat, (vq * ux - uq * vx) * inverse);
-
-    const auto swap = area < hn::Zero(di);
-    hn::Store(ixa, di, fields.x[0]);
-    hn::Store(hn::IfThenElse(swap, ixc, ixb), di, fields.x[1]);
-    hn::Store(hn::IfThenElse(swap, ixb, ixc), di, fields.x[2]);
-    hn::Store(iya, di, fields.y[0]);
-    hn::Store(hn::IfThenElse(swap, iyc, iyb), di, fields.y[1]);
-    hn::Store(hn::IfThenElse(swap, iyb, iyc), di, fields.y[2]);
-    hn::Store(xa, d, fields.base_x);
-    hn::Store(ya, d, fields.base_y);
-    hn::Store(qa, d, fields.base_q);
-    hn::Store(q_dx, d, fields.q_dx);
-    hn::Store(q_dy, d, fields.q_dy);
-    hn::Store(q_min, d, fields.q_min);
-    hn::Store(q_max, d, fields.q_max);
-    bits[0] = bits[1] = 0;
-    hn::StoreMaskBits(di, small, bits);
-    EmitSmall(fields, bits[0] | std::uint64_t{bits[1]} << 8U, first_id + first, kind, batch);
+    StoreFields(c, q, area < hn::Zero(di), fields);
+    EmitSmall(fields, BitsOf(small), first_id + first, kind, batch);
   }
 }
 
