@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -109,11 +108,6 @@ Result<float> parse_exposure(const std::string& text) {
   return exposure_from_stops(stops);
 }
 
-bool has_ending(const std::string& name, const char* ending) {
-  return name.size() >= std::strlen(ending) &&
-         name.compare(name.size() - std::strlen(ending), std::string::npos, ending) == 0;
-}
-
 /// Keeps users from wondering at white or black pictures.
 void advise_exposure(const LayeredImage& image, float exposure) {
   std::size_t seen = 0;
@@ -181,7 +175,7 @@ class RenderCommand {
     const bool has_passes = std::ranges::find(settings.layers, Layer::passes) != settings.layers.end();
     if (has_passes && settings.passes != Passes::multi) return "--layers passes needs --passes multi";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
-    if (!settings.layers.empty() && !has_ending(options_.output, ".exr") && options_.layer_pictures.empty()) {
+    if (!settings.layers.empty() && !keeps_layers(options_.output) && options_.layer_pictures.empty()) {
       return "--layers: only OpenEXR holds layers: give an output that ends in .exr, or --layer-pictures "
              "FOLDER";
     }
@@ -200,12 +194,12 @@ class RenderCommand {
     const bool is_debug = !options_.debug.empty();
     // In half precision the lights' layers would no longer add up to beauty.
     const bool has_light_layers = std::ranges::find(settings.layers, Layer::light) != settings.layers.end();
-    if (has_light_layers && has_ending(options_.output, ".exr") && options_.depth == "auto") {
+    if (has_light_layers && keeps_layers(options_.output) && options_.depth == "auto") {
       write.depth = WriteOptions::Depth::single;
     }
     if (!is_debug) {
       write.exposure = exposure == 0 ? automatic_exposure(*image) : exposure;
-      if (!has_ending(options_.output, ".exr")) advise_exposure(*image, write.exposure);
+      if (!keeps_layers(options_.output)) advise_exposure(*image, write.exposure);
     }
     const auto write_start = std::chrono::steady_clock::now();
     if (!options_.layer_pictures.empty()) {
@@ -213,7 +207,7 @@ class RenderCommand {
       if (!written) return report(written.error());
     }
     // Formats for the screen hold neither layers nor, unless it was asked for, coverage.
-    if (!is_debug && !has_ending(options_.output, ".exr")) {
+    if (!is_debug && !keeps_layers(options_.output)) {
       image->channels.resize(options_.background == "transparent" ? 4 : 3);
     }
     if (Result<void> written = write_image(*image, options_.output, write); !written)

@@ -130,6 +130,8 @@ Result<void> write_image(const Image& image, const std::filesystem::path& file, 
 /// Whether write_image() could write such a file, to ask before a long render: the ending is known, the folder exists and
 /// may be written. Nothing is left behind; an existing file is kept. Errors as write_image()'s.
 Result<void> check_image_output(const std::filesystem::path& file);
+/// Whether such a file would keep every channel of a LayeredImage (OpenEXR), not only colour and coverage.
+[[nodiscard]] bool keeps_layers(const std::filesystem::path& file);
 
 /// How two pictures differ, in idiff's terms, over all channels. The values are compared as they are: in
 /// linear light or, for 8- and 16-bit files read with ChannelValues::stored, in stored values. Equal

@@ -1,10 +1,10 @@
 // Which format is this, and is its size one that we read?
 #include <algorithm>
 #include <array>
-#include <new>
 #include <utility>
 
 #include "base/file_io.h"
+#include "base/without_exceptions.h"
 #include "image/decoder.h"
 #include "image/exr_decode.h"
 #include "image/layers.h"
@@ -85,11 +85,9 @@ Result<ImageHeader> read_checked_header(const Decoder& decoder, const EncodedPic
 Result<Image> decode_with(const Decoder& decoder, const EncodedPicture& encoded) {
   const Result<ImageHeader> header = read_checked_header(decoder, encoded);
   if (!header) return tl::unexpected(header.error());
-  try {
-    return decoder.decode(encoded, *header);
-  } catch (const std::bad_alloc&) {
-    return unreadable(encoded, {}, "not enough memory for " + size_text(*header) + " pixels");
-  }
+  return without_exceptions(
+      unreadable(encoded, {}, "not enough memory for " + size_text(*header) + " pixels").value(),
+      [&] { return decoder.decode(encoded, *header); });
 }
 
 bool begins_with(std::span<const std::byte> bytes, std::string_view signature) {
@@ -155,11 +153,9 @@ Result<LayeredImage> read_layered_image(const std::filesystem::path& file, Chann
   if (image::kExrDecoder.recognises(encoded)) return image::decode_exr_layers(encoded);
   const Result<Image> picture = decode_image(*bytes, name);
   if (!picture) return tl::unexpected(picture.error());
-  try {
-    return image::layers_from_image(*picture, values);
-  } catch (const std::bad_alloc&) {
-    return image::unreadable(encoded, {}, "not enough memory for the picture's channels");
-  }
+  return without_exceptions(
+      image::unreadable(encoded, {}, "not enough memory for the picture's channels").value(),
+      [&]() -> Result<LayeredImage> { return image::layers_from_image(*picture, values); });
 }
 
 }  // namespace laterna

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
 
 #include "base/output_file.h"
+#include "base/without_exceptions.h"
 #include "image/encoder.h"
 #include "image/file_ending.h"
 #include "image/layers.h"
@@ -47,14 +47,8 @@ bool is_stored_depth(const Image& image, const WriteOptions& options) {
          options.depth == (image.type() == PixelType::u8 ? Depth::bits8 : Depth::bits16);
 }
 
-template <class Write>
-Result<void> without_exceptions(const std::string& name, Write write) {
-  try {
-    return write();
-  } catch (const std::bad_alloc&) {
-    return tl::unexpected(
-        Error(Failure::cannot_write, Diagnostic{name, {}, "not enough memory to encode the picture"}));
-  }
+Error memory_exhausted(const std::string& name) {
+  return {Failure::cannot_write, Diagnostic{name, {}, "not enough memory to encode the picture"}};
 }
 
 }  // namespace
@@ -66,7 +60,7 @@ namespace laterna {
 Result<void> write_image(const LayeredImage& picture, const std::filesystem::path& file,
                          const WriteOptions& options) {
   const std::string name = file.string();
-  return image::without_exceptions(name, [&]() -> Result<void> {
+  return without_exceptions(image::memory_exhausted(name), [&]() -> Result<void> {
     const Result<image::Encode> encode = image::find_encoder(name);
     if (!encode) return tl::unexpected(encode.error());
     if (std::string fault = image::find_fault(options); !fault.empty()) {
@@ -84,7 +78,7 @@ Result<void> write_image(const LayeredImage& picture, const std::filesystem::pat
 Result<void> write_image(const Image& picture, const std::filesystem::path& file,
                          const WriteOptions& options) {
   const std::string name = file.string();
-  return image::without_exceptions(name, [&]() -> Result<void> {
+  return without_exceptions(image::memory_exhausted(name), [&]() -> Result<void> {
     if (picture.empty()) return image::cannot_hold(name, "the picture is empty");
     if (!image::is_png(name) || !image::is_stored_depth(picture, options)) {
       return write_image(image::layers_from_image(picture, ChannelValues::linear), file, options);
@@ -95,6 +89,8 @@ Result<void> write_image(const Image& picture, const std::filesystem::path& file
     return write_file(file, image::encode_png(picture, options.threads));
   });
 }
+
+bool keeps_layers(const std::filesystem::path& file) { return image::has_ending(file.string(), ".exr"); }
 
 Result<void> check_image_output(const std::filesystem::path& file) {
   const Result<image::Encode> encode = image::find_encoder(file.string());

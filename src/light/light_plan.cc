@@ -18,7 +18,7 @@ constexpr int kMaxResolution = 16384;
 // Where shadow maps of point and spot lights begin: before the nearest caster, but no farther than this. Reversed depth
 // loses nothing by it.
 constexpr double kFarthestNear = 0.01;
-// Light inside a cluster's box: a share of the scene's size, so that toys and planets are treated alike.
+// Light inside a cluster's box: a share of the largest cluster's size, so that toys and planets are treated alike.
 constexpr double kSmallestNear = 1e-5;
 
 // Cones wider than this are drawn on the faces of a cube: one plane would spend its texels on the rim.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/refuse.h"
 #include "laterna/measure.h"
 #include "measure/depth_ramp.h"
 
@@ -27,10 +28,7 @@ float DepthRamp::grey(float depth) const {
 
 Result<LayeredImage> depth_picture(const LayeredImage& depth) {
   const Channel* z = depth.find("Z");
-  if (z == nullptr) {
-    return tl::unexpected(
-        Error(Failure::bad_usage, Diagnostic{{}, {}, "a depth picture is made from a channel \"Z\""}));
-  }
+  if (z == nullptr) return refuse("a depth picture is made from a channel \"Z\"");
   const measure::DepthRamp ramp(z->values);
   LayeredImage picture;
   picture.width = depth.width;

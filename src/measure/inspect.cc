@@ -1,3 +1,4 @@
+#include "base/refuse.h"
 #include "laterna/measure.h"
 
 #include <algorithm>
@@ -7,9 +8,6 @@ namespace laterna {
 
 Result<PointReport> inspect_point(const Renderer& renderer, const View& camera, int width, int height,
                                   const std::string& light, const glm::dvec3& point_ws) {
-  const auto refuse = [](std::string message) {
-    return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}));
-  };
   if (!std::isfinite(point_ws.x) || !std::isfinite(point_ws.y) || !std::isfinite(point_ws.z)) {
     return refuse("the point's coordinates must be finite");
   }

@@ -7,9 +7,9 @@
 namespace laterna {
 namespace {
 
-// A light's maps with the views they were drawn from: one, or six faces.
+// A light's maps with the matrices they were drawn by: one, or six faces.
 struct LightMaps {
-  std::vector<View> views;
+  std::vector<glm::dmat4> image_from_world;
   std::vector<LayeredImage> maps;
 };
 
@@ -23,15 +23,15 @@ Result<LightMaps> draw_maps(const Renderer& renderer, const std::string& light) 
     if (!map) return tl::unexpected(map.error());
     if (!view) return tl::unexpected(view.error());
     all.maps.push_back(std::move(*map));
-    all.views.push_back(*view);
+    all.image_from_world.push_back(view->image_from_world());
   }
   return all;
 }
 
 // What the maps hold for a point; none where no map sees it.
 std::optional<float> stored_depth(const LightMaps& light, const glm::dvec3& point_ws) {
-  for (std::size_t i = 0; i < light.views.size(); ++i) {
-    const glm::dvec4 q = light.views[i].image_from_world() * glm::dvec4(point_ws, 1);
+  for (std::size_t i = 0; i < light.maps.size(); ++i) {
+    const glm::dvec4 q = light.image_from_world[i] * glm::dvec4(point_ws, 1);
     if (q.w <= 0) continue;
     const LayeredImage& map = light.maps[i];
     const double x = std::floor(q.x / q.w * map.width);
@@ -66,14 +66,12 @@ Result<LayeredImage> projected_depth(const Renderer& renderer, const View& camer
   LayeredImage picture;
   picture.width = drawn->width;
   picture.height = drawn->height;
-  for (const char* name : {"R", "G", "B"}) {
-    Channel channel = {name, drawn->find(name)->values};
-    for (std::size_t i = 0; i < channel.values.size(); ++i) {
-      if (object[i] < 0) continue;
-      const std::optional<float> stored = stored_depth(*maps, {x[i], y[i], z[i]});
-      channel.values[i] = stored ? ramp.grey(*stored) : 0.0F;
-    }
-    picture.channels.push_back(std::move(channel));
+  for (const char* name : {"R", "G", "B"}) picture.channels.push_back({name, drawn->find(name)->values});
+  for (std::size_t i = 0; i < object.size(); ++i) {
+    if (object[i] < 0) continue;
+    const std::optional<float> stored = stored_depth(*maps, {x[i], y[i], z[i]});
+    const float grey = stored ? ramp.grey(*stored) : 0.0F;
+    for (Channel& channel : picture.channels) channel.values[i] = grey;
   }
   return picture;
 }

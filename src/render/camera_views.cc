@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/elementary.h"
+#include "base/refuse.h"
 
 namespace laterna::render {
 namespace {
@@ -46,9 +47,7 @@ Result<View> camera_view(const frame::Frame& frame, const std::string& name, int
     if (name.empty() || placed.camera->name == name)
       return View{placed.pose, fitted(*placed.camera, width, height)};
   }
-  return tl::unexpected(
-      Error(Failure::bad_usage,
-            Diagnostic{{}, {}, "the scene has no camera \"" + name + "\": " + names_of(frame)}));
+  return refuse("the scene has no camera \"" + name + "\": " + names_of(frame));
 }
 
 View overview(const frame::Frame& frame, int width, int height) {

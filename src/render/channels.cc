@@ -42,10 +42,6 @@ using shade::TileColor;
 using shade::TilePlane;
 using shade::TileResult;
 
-bool has(const RenderSettings& settings, Layer layer) {
-  return std::find(settings.layers.begin(), settings.layers.end(), layer) != settings.layers.end();
-}
-
 class ChannelList {
  public:
   template <class Find>  // Find: TileResult → const TilePlane*
@@ -77,20 +73,20 @@ constexpr std::array<const char*, 3> kRgb = {"R", "G", "B"};
 constexpr std::array<const char*, 3> kXyz = {"X", "Y", "Z"};
 
 void add_lights(ChannelList& list, const RenderSettings& settings, const frame::Frame& frame) {
-  if (has(settings, Layer::light)) {
+  if (has_layer(settings, Layer::light)) {
     list.add_color("ambient.", kRgb, [](const TileResult& t) -> const TileColor& { return t.radiance[0]; });
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
       list.add_color("light." + frame.lights[i].light->name + ".", kRgb,
                      [i](const TileResult& t) -> const TileColor& { return t.radiance[i + 1]; });
     }
   }
-  if (has(settings, Layer::visibility)) {
+  if (has_layer(settings, Layer::visibility)) {
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
       list.add("visibility." + frame.lights[i].light->name,
                [i](const TileResult& t) { return &t.visibility[i]; });
     }
   }
-  if (!has(settings, Layer::uv)) return;
+  if (!has_layer(settings, Layer::uv)) return;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     if (frame.lights[i].light->type != LightType::projector) continue;
     list.add("uv." + frame.lights[i].light->name + ".u", [i](const TileResult& t) { return &t.slide_s[i]; });
@@ -99,7 +95,7 @@ void add_lights(ChannelList& list, const RenderSettings& settings, const frame::
 }
 
 void add_passes(ChannelList& list, const RenderSettings& settings, const frame::Frame& frame) {
-  if (!has(settings, Layer::passes) || settings.passes != Passes::multi) return;
+  if (!has_layer(settings, Layer::passes) || settings.passes != Passes::multi) return;
   list.add("pass.1.z", [](const TileResult& t) { return &t.depth; });
   list.add_color("pass.1.c.", kRgb, [](const TileResult& t) -> const TileColor& { return t.pass_colors[0]; });
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
@@ -116,37 +112,41 @@ void add_passes(ChannelList& list, const RenderSettings& settings, const frame::
 
 }  // namespace
 
+bool has_layer(const RenderSettings& settings, Layer layer) {
+  return std::find(settings.layers.begin(), settings.layers.end(), layer) != settings.layers.end();
+}
+
 std::vector<PictureChannel> picture_channels(const RenderSettings& settings, const frame::Frame& frame) {
   ChannelList list;
   list.add_color("", kRgb, [](const TileResult& t) -> const TileColor& { return t.beauty; });
   list.add("A", [](const TileResult& t) { return &t.alpha; });
   add_lights(list, settings, frame);
-  if (has(settings, Layer::lux)) list.add("lux.Y", [](const TileResult& t) { return &t.lux; });
-  if (has(settings, Layer::depth)) list.add("Z", [](const TileResult& t) { return &t.depth; });
-  if (has(settings, Layer::position)) {
+  if (has_layer(settings, Layer::lux)) list.add("lux.Y", [](const TileResult& t) { return &t.lux; });
+  if (has_layer(settings, Layer::depth)) list.add("Z", [](const TileResult& t) { return &t.depth; });
+  if (has_layer(settings, Layer::position)) {
     list.add_color("P.", kXyz, [](const TileResult& t) -> const TileColor& { return t.position; });
   }
-  if (has(settings, Layer::normal)) {
+  if (has_layer(settings, Layer::normal)) {
     list.add_color("N.", kXyz, [](const TileResult& t) -> const TileColor& { return t.normal; });
   }
-  if (has(settings, Layer::albedo)) {
+  if (has_layer(settings, Layer::albedo)) {
     list.add_color("albedo.", kRgb, [](const TileResult& t) -> const TileColor& { return t.albedo; });
   }
-  if (has(settings, Layer::object)) list.add_object_ids();
+  if (has_layer(settings, Layer::object)) list.add_object_ids();
   add_passes(list, settings, frame);
   return list.take();
 }
 
 shade::WantedLayers wanted_layers(const RenderSettings& settings) {
   shade::WantedLayers wanted;
-  wanted.passes = has(settings, Layer::passes) && settings.passes == Passes::multi;
-  wanted.lights = has(settings, Layer::light) || settings.passes == Passes::multi;
-  wanted.visibility = has(settings, Layer::visibility) || wanted.passes;
-  wanted.slide_uv = has(settings, Layer::uv);
-  wanted.lux = has(settings, Layer::lux);
-  wanted.geometry = has(settings, Layer::depth) || has(settings, Layer::position) ||
-                    has(settings, Layer::normal) || has(settings, Layer::object) || wanted.passes;
-  wanted.albedo = has(settings, Layer::albedo);
+  wanted.passes = has_layer(settings, Layer::passes) && settings.passes == Passes::multi;
+  wanted.lights = has_layer(settings, Layer::light) || settings.passes == Passes::multi;
+  wanted.visibility = has_layer(settings, Layer::visibility) || wanted.passes;
+  wanted.slide_uv = has_layer(settings, Layer::uv);
+  wanted.lux = has_layer(settings, Layer::lux);
+  wanted.geometry = has_layer(settings, Layer::depth) || has_layer(settings, Layer::position) ||
+                    has_layer(settings, Layer::normal) || has_layer(settings, Layer::object) || wanted.passes;
+  wanted.albedo = has_layer(settings, Layer::albedo);
   return wanted;
 }
 

@@ -1,7 +1,7 @@
 // The channels of a picture: their names, and where in a shaded tile each is found.
 #pragma once
 
-#include <optional>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +19,8 @@ struct PictureChannel {
   std::string name;
   ChannelPlane plane;
 };
+
+bool has_layer(const RenderSettings& settings, Layer layer);
 
 /// Every channel the settings produce, in the order of a file.
 std::vector<PictureChannel> picture_channels(const RenderSettings& settings, const frame::Frame& frame);

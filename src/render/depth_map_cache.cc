@@ -49,7 +49,7 @@ shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowV
   const raster::RasteriseVisibility rasterise_visibility =
       raster::rasterise_visibility_for(context.instruction_set);
   context.pool.for_each(tile_count(map), [&](std::size_t i, int) {
-    if (context.progress != nullptr && context.progress->is_cancelled()) return;
+    if (context.progress.is_cancelled()) return;
     const int x = static_cast<int>(i) % map.tiles_x();
     const int y = static_cast<int>(i) / map.tiles_x();
     float* tile = map.tile(x, y);
@@ -62,7 +62,7 @@ shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowV
       rasterise_depth(task, tile);
     }
     std::replace(tile, tile + raster::kTilePixels, view.reversed_far, shadow::kNothingSeen);
-    if (context.progress != nullptr) context.progress->advance();
+    context.progress.advance();
   });
   return map;
 }
@@ -74,9 +74,7 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
   list_lock.unlock();
   const std::lock_guard lock(entry.mutex);
   if (!anew && !entry.maps.empty() && entry.key == key) {
-    if (context.progress != nullptr) {
-      for (const auto& map : entry.maps) context.progress->advance(tile_count(*map));
-    }
+    for (const auto& map : entry.maps) context.progress.advance(tile_count(*map));
     return {entry.maps, 0};
   }
   entry.maps.clear();
@@ -84,7 +82,7 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
   for (const light::ShadowView& view : key.views) {
     maps.push_back(std::make_shared<const shadow::DepthMap>(
         draw_depth_map(context, view, key.faces, key.keeps_triangles)));
-    if (context.progress != nullptr && context.progress->is_cancelled()) return {};
+    if (context.progress.is_cancelled()) return {};
   }
   entry.key = key;
   entry.maps = std::move(maps);

@@ -30,7 +30,7 @@ struct DrawContext {
   const TaskPool& pool;
   BinsPool& bins;
   InstructionSet instruction_set;
-  ProgressReport* progress = nullptr;  // told of every tile; asked whether to stop
+  ProgressReport& progress;  // told of every tile; asked whether to stop
 };
 
 /// One depth map: a pass that touches nothing but positions, and alpha where a material is cut out (row 76). Unfinished

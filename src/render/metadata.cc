@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "render/channels.h"
+
 namespace laterna::render {
 namespace {
 
@@ -61,7 +63,7 @@ std::map<std::string, std::string> describe(const RenderSettings& settings, cons
   all["laterna.anisotropy"] = std::to_string(settings.anisotropy);
   all["laterna.clip_from_world"] = matrix_text(view.clip_from_world());
   all["laterna.view_from_world"] = matrix_text(view.view_from_world());
-  if (std::find(settings.layers.begin(), settings.layers.end(), Layer::object) != settings.layers.end()) {
+  if (has_layer(settings, Layer::object)) {
     std::string names = "{";
     for (std::size_t i = 0; i < frame.object_names.size(); ++i) {
       names += fmt::format("{}\"{}\": {}", i == 0 ? "" : ", ", i, quoted(frame.object_names[i]));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/refuse.h"
 #include "image/colour.h"
 
 namespace laterna::render {
@@ -18,10 +19,6 @@ void read_row(const TilePlane& plane, int y, float* row) {
   }
 }
 
-tl::unexpected<Error> bad_target(std::string message) {
-  return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}));
-}
-
 }  // namespace
 
 Result<PictureWriter> PictureWriter::create(const RenderSettings& settings, const RenderTarget& target,
@@ -32,9 +29,9 @@ Result<PictureWriter> PictureWriter::create(const RenderSettings& settings, cons
   const auto width = static_cast<std::size_t>(settings.width);
   if (target.color8) {
     const ColorTarget8& color = *target.color8;
-    if (color.channels != 3 && color.channels != 4) return bad_target("an 8-bit target has 3 or 4 channels");
+    if (color.channels != 3 && color.channels != 4) return refuse("an 8-bit target has 3 or 4 channels");
     if (color.pixels == nullptr || color.row_stride < width * static_cast<std::size_t>(color.channels)) {
-      return bad_target("the 8-bit target has no memory for a row");
+      return refuse("the 8-bit target has no memory for a row");
     }
     writer.color8_ = color;
   }
@@ -43,10 +40,9 @@ Result<PictureWriter> PictureWriter::create(const RenderSettings& settings, cons
     const auto found = std::find_if(channels.begin(), channels.end(), [&](const PictureChannel& channel) {
       return channel.name == wanted.name;
     });
-    if (found == channels.end())
-      return bad_target("these settings produce no channel \"" + wanted.name + "\"");
+    if (found == channels.end()) return refuse("these settings produce no channel \"" + wanted.name + "\"");
     if (wanted.pixels == nullptr || wanted.row_stride < width) {
-      return bad_target("the target of channel \"" + wanted.name + "\" has no memory for a row");
+      return refuse("the target of channel \"" + wanted.name + "\" has no memory for a row");
     }
     writer.planes_.push_back({found->plane, wanted.pixels, wanted.row_stride});
   }

@@ -3,11 +3,12 @@
 #include <cmath>
 #include <mutex>
 
+#include "base/refuse.h"
+#include "base/without_exceptions.h"
 #include "laterna/render.h"
 #include "light/light_plan.h"
 #include "render/camera_views.h"
 #include "render/depth_map_cache.h"
-#include "render/memory_guard.h"
 #include "render/metadata.h"
 #include "render/open_sheets.h"
 #include "render/picture_writer.h"
@@ -21,7 +22,6 @@ namespace laterna {
 
 using render::BinsPool;
 using render::ProgressReport;
-using render::without_exceptions;
 
 namespace {
 
@@ -54,8 +54,12 @@ std::size_t tile_count(const RenderSettings& settings, const light::LightPlan& p
   return count;
 }
 
-tl::unexpected<Error> refuse(std::string message) {
-  return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}));
+// The door of every call that may need much memory.
+template <class Work>
+auto guarded(Work work) -> decltype(work()) {
+  return without_exceptions(
+      refuse("not enough memory: ask for a smaller picture, fewer layers or smaller shadow maps").value(),
+      work);
 }
 
 }  // namespace
@@ -97,10 +101,6 @@ struct Renderer::Implementation {
     return false;
   }
 
-  [[nodiscard]] render::DrawContext draw_context(ProgressReport* progress = nullptr) const {
-    return {frame, pool, bins, set, progress};
-  }
-
   std::shared_ptr<const trace::RayScene> ray_scene() const {
     const std::lock_guard lock(rays_mutex);
     if (rays == nullptr) rays = std::make_shared<const trace::RayScene>(frame);
@@ -121,7 +121,7 @@ struct Renderer::Implementation {
     const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
                                      planned.settings.filter == ShadowFilter::refined, casters_revision};
     const render::DepthMapCache::Found found =
-        maps.find(index, key, draw_context(&progress), !settings.keep_shadow_maps);
+        maps.find(index, key, {frame, pool, bins, set, progress}, !settings.keep_shadow_maps);
     if (found.maps.empty()) return nullptr;  // cancelled
     statistics.maps_drawn += found.drawn;
     statistics.maps_kept += static_cast<int>(found.maps.size()) - found.drawn;
@@ -199,7 +199,7 @@ Result<Renderer> Renderer::create(Scene scene, const RendererOptions& options) {
     return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
   }
   if (Result<void> checked = render::check_options(options); !checked) return tl::unexpected(checked.error());
-  return without_exceptions([&]() -> Result<Renderer> {
+  return guarded([&]() -> Result<Renderer> {
     render::add_default_light(scene);
     render::add_missing_tangents(scene);
     render::warn_of_open_sheets(scene);
@@ -290,7 +290,7 @@ Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const 
 
 Result<RenderStatistics> Renderer::render_into(const View& view, const RenderSettings& settings,
                                                const RenderTarget& target, const Progress& progress) const {
-  return without_exceptions([&] { return implementation_->draw(view, settings, target, progress); });
+  return guarded([&] { return implementation_->draw(view, settings, target, progress); });
 }
 
 std::vector<std::string> Renderer::channel_names(const RenderSettings& settings) const {
@@ -326,8 +326,7 @@ Result<LayeredImage> Renderer::Implementation::draw_channels(const View& view, c
 
 Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& settings,
                                       const Progress& progress, RenderStatistics* statistics) const {
-  return without_exceptions(
-      [&] { return implementation_->draw_channels(view, settings, progress, statistics); });
+  return guarded([&] { return implementation_->draw_channels(view, settings, progress, statistics); });
 }
 
 Result<void> Renderer::set_transform(int node, const glm::dmat4& parent_from_node) {
@@ -343,7 +342,7 @@ Result<void> Renderer::set_transform(int node, const glm::dmat4& parent_from_nod
     self.frame.place_lights_and_cameras(self.scene);
     return {};
   }
-  Result<void> built = faults.empty() ? without_exceptions([&] { return self.rebuild(); })
+  Result<void> built = faults.empty() ? guarded([&] { return self.rebuild(); })
                                       : tl::unexpected(Error(Failure::bad_input, std::move(faults)));
   if (!built) place = before;
   return built;
@@ -361,7 +360,7 @@ Result<void> Renderer::set_light(int light, Light value) {
     return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
   }
   if (place.slide >= 0 && self.textures->find(place.slide, frame::slide_use(place)) == nullptr) {
-    Result<void> loaded = without_exceptions([&] { return self.load(); });
+    Result<void> loaded = guarded([&] { return self.load(); });
     if (!loaded) std::swap(place, value);
     return loaded;
   }
@@ -434,9 +433,11 @@ Result<LayeredImage> Renderer::depth_map(const std::string& light, int face) con
   const Implementation& self = *implementation_;
   const Result<light::PlannedLight> planned = self.planned_face(light, face);
   if (!planned) return tl::unexpected(planned.error());
-  return without_exceptions([&]() -> Result<LayeredImage> {
-    return metres_of(render::draw_depth_map(self.draw_context(), planned->shadow_views[0],
-                                            planned->settings.caster_faces, false));
+  return guarded([&]() -> Result<LayeredImage> {
+    const Progress nobody_asks;
+    ProgressReport progress(nobody_asks, 1);
+    return metres_of(render::draw_depth_map({self.frame, self.pool, self.bins, self.set, progress},
+                                            planned->shadow_views[0], planned->settings.caster_faces, false));
   });
 }
 

@@ -6,14 +6,11 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "base/refuse.h"
 #include "raster/triangle_bins.h"
 
 namespace laterna::render {
 namespace {
-
-Result<void> refuse(std::string message) {
-  return tl::unexpected(Error(Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}));
-}
 
 /// Whether an enumerator is one of those from 0 to `last`.
 template <class Enumeration>

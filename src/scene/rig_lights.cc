@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "base/file_io.h"
 #include "laterna/image.h"
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
@@ -249,9 +248,7 @@ class LightReader {
     if (!object_.has("hfov_deg") || object_.has("aspect")) return std::nullopt;
     if (light_.slide < 0) return 1;
     const Picture& picture = pictures_.back();
-    const Result<std::vector<std::byte>> bytes = read_file(picture.file);
-    const Result<ImageHeader> header =
-        bytes ? read_image_header(*bytes, picture.name) : tl::unexpected(bytes.error());
+    const Result<ImageHeader> header = read_image_header(picture.file);
     if (header) return static_cast<double>(header->width) / header->height;
     object_.error(light_.slide_is_intensity ? "intensity_map" : "slide", to_string(header.error()));
     return 1;

@@ -246,7 +246,7 @@ TEST(InvalidPicture, FloatFormats) {
 }
 
 TEST(InvalidPicture, File) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const auto error = [&](const std::filesystem::path& file) {
     const Result<Image> image = read_image(file);
     return image ? "no error" : to_string(image.error()).substr(directory.path().string().size() + 1);
@@ -258,7 +258,7 @@ TEST(InvalidPicture, File) {
 }
 
 Bytes small_exr() {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   LayeredImage image{
       3, 40, {{"R", std::vector<float>(120, 0.5F)}, {"G", {}}, {"B", {}}, {"Z", {}}}, {{"key", "value"}}};
   for (std::size_t c = 1; c < 4; ++c) {

@@ -475,10 +475,12 @@ Maps draw_maps(const light::PlannedLight& planned, const frame::Frame& frame, In
                bool keeps_triangles) {
   const TaskPool pool(1);
   render::BinsPool bins;
+  const Progress unwatched;
+  render::ProgressReport progress(unwatched, 1);
   Maps maps;
   for (const light::ShadowView& view : planned.shadow_views) {
-    maps.push_back(std::make_shared<const DepthMap>(
-        render::draw_depth_map({frame, pool, bins, set}, view, CasterFaces::both, keeps_triangles)));
+    maps.push_back(std::make_shared<const DepthMap>(render::draw_depth_map(
+        {frame, pool, bins, set, progress}, view, CasterFaces::both, keeps_triangles)));
   }
   return maps;
 }

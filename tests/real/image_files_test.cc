@@ -7,6 +7,7 @@
 #include <set>
 
 #include "laterna/image.h"
+#include "unit/temporary_folder.h"
 
 namespace laterna {
 namespace {
@@ -100,11 +101,11 @@ TEST(PictureFiles, ExrFilesSurviveBeingWrittenAgain) {
   SKIP_WITHOUT(file);
   const Result<LayeredImage> image = read_layered_image(file);
   ASSERT_TRUE(image) << to_string(image.error());
-  const std::filesystem::path copy = std::filesystem::temp_directory_path() / "laterna_sunset_copy.exr";
+  const TemporaryFolder folder;
+  const std::filesystem::path copy = folder / "sunset.exr";
   const Result<void> written = write_image(*image, copy);
   ASSERT_TRUE(written) << to_string(written.error());
   const Result<LayeredImage> back = read_layered_image(copy);
-  std::filesystem::remove(copy);
   ASSERT_TRUE(back) << to_string(back.error());
   const Result<Comparison> found = compare_images(*image, *back, {});
   ASSERT_TRUE(found) << to_string(found.error());

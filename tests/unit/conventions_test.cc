@@ -25,7 +25,6 @@ using reference::add_light;
 using reference::add_object;
 using reference::at;
 using reference::make_renderer;
-using testing_scenes::TemporaryFolder;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kPi = std::numbers::pi;

@@ -1,4 +1,4 @@
-// Tiny picture files, built byte by byte from the formats' descriptions, and a place to write files to.
+// Tiny picture files, built byte by byte from the formats' descriptions, and reading and writing them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "laterna/image.h"
+#include "unit/temporary_folder.h"
 
 namespace laterna::testing {
 
@@ -226,32 +227,6 @@ inline Bytes small_hdr() {
 
 // ---------------------------------------------------------------------------------------------- reading and
 // writing
-
-/// A directory that is gone when the test is over.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "laterna_test_XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
-
-  [[nodiscard]] std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Names of the files in it, sorted.
-  [[nodiscard]] std::vector<std::string> names() const {
-    std::vector<std::string> result;
-    for (const auto& entry : std::filesystem::directory_iterator(path_))
-      result.push_back(entry.path().filename());
-    std::sort(result.begin(), result.end());
-    return result;
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline void store(const std::filesystem::path& file, const Bytes& content) {
   std::ofstream stream(file, std::ios::binary);

@@ -97,7 +97,7 @@ Image read(const std::filesystem::path& file) {
   return {};
 }
 
-std::string read_error(const TemporaryDirectory& directory, std::string_view name) {
+std::string read_error(const TemporaryFolder& directory, std::string_view name) {
   const Result<Image> image = read_image(directory / name);
   if (image) return "no error";
   return to_string(image.error()).substr(directory.path().string().size() + 1);
@@ -116,7 +116,7 @@ void expect_rgb(const Image& image, int width, int height, float tolerance) {
 }
 
 TEST(ReadExr, EveryCompressionInRowsAndTiles) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   for (int i = 0; i < Imf::NUM_COMPRESSION_METHODS; ++i) {
     ExrFile file(37, 41);
     file.header.compression() = static_cast<Imf::Compression>(i);
@@ -131,7 +131,7 @@ TEST(ReadExr, EveryCompressionInRowsAndTiles) {
 }
 
 TEST(ReadExr, HalfFloatAndUnsigned) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   ExrFile(5, 3)
       .add("half", Imf::HALF)
       .add("float", Imf::FLOAT)
@@ -150,7 +150,7 @@ TEST(ReadExr, HalfFloatAndUnsigned) {
 }
 
 TEST(ReadExr, GreyAndAlpha) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   ExrFile(4, 4).add("Y", Imf::FLOAT).write(directory / "y.exr");
   EXPECT_EQ(read(directory / "y.exr").channels(), 1);
   EXPECT_EQ(read(directory / "y.exr").value(3, 2, 0), sample(3, 2, 0));
@@ -163,7 +163,7 @@ TEST(ReadExr, GreyAndAlpha) {
 }
 
 TEST(ReadExr, DataOutsideTheDisplayWindowIsDroppedAndMissingDataIsZero) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Imath::Box2i display({10, 20}, {15, 24});  // 6 × 5
   const Imath::Box2i data({8, 22}, {13, 30});
   ExrFile(display, data).add("Y", Imf::FLOAT).write(directory / "a.exr");
@@ -179,13 +179,13 @@ TEST(ReadExr, DataOutsideTheDisplayWindowIsDroppedAndMissingDataIsZero) {
 }
 
 TEST(ReadExr, WindowsThatDoNotMeetGiveBlack) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   ExrFile({{0, 0}, {3, 3}}, {{-9, 7}, {-5, 8}}).add("Y", Imf::FLOAT).write(directory / "a.exr");
   EXPECT_EQ(values_f32(read(directory / "a.exr")), std::vector<float>(16, 0));
 }
 
 TEST(ReadExr, TheFirstOfSeveralParts) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   ExrFile first(7, 5), second(7, 5);
   first.add("R", Imf::FLOAT).add("G", Imf::FLOAT).add("B", Imf::FLOAT);
   second.add("Y", Imf::FLOAT);
@@ -209,7 +209,7 @@ TEST(ReadExr, TheFirstOfSeveralParts) {
 }
 
 TEST(ReadExr, NamesWhatItDoesNotRead) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   ExrFile(2, 2).add("Z", Imf::FLOAT).add("N.X", Imf::HALF).write(directory / "layers.exr");
   EXPECT_EQ(read_error(directory, "layers.exr"), "layers.exr: expected channels R, G, B or Y, found N.X Z");
 
@@ -230,7 +230,7 @@ TEST(ReadExr, NamesWhatItDoesNotRead) {
 }
 
 TEST(ReadExr, RefusesSizesThatTheFileCannotHold) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const auto claim = [&](const Imath::Box2i& display, const Imath::Box2i& data) {
     Imf::Header header(display, data);
     header.channels().insert("Y", Imf::Channel(Imf::HALF));

@@ -28,7 +28,7 @@ std::string creation_error(const Result<T>& result) {
 }
 
 TEST(OutputFile, IsThereOnlyOnceCommitted) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   Result<OutputFile> file = OutputFile::create(directory / "a.txt");
   ASSERT_TRUE(file);
   EXPECT_TRUE(file->write(bytes("one ")));
@@ -41,7 +41,7 @@ TEST(OutputFile, IsThereOnlyOnceCommitted) {
 }
 
 TEST(OutputFile, LeavesNothingWhenNotCommitted) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   store(directory / "a.txt", bytes("before"));
   {
     Result<OutputFile> file = OutputFile::create(directory / "a.txt");
@@ -54,7 +54,7 @@ TEST(OutputFile, LeavesNothingWhenNotCommitted) {
 }
 
 TEST(OutputFile, ReplacesItsTargetAndKeepsItsPermissions) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   store(directory / "a.txt", bytes("before"));
   ASSERT_EQ(::chmod((directory / "a.txt").c_str(), 0640), 0);
   EXPECT_TRUE(write_file(directory / "a.txt", bytes("after")));
@@ -65,7 +65,7 @@ TEST(OutputFile, ReplacesItsTargetAndKeepsItsPermissions) {
 }
 
 TEST(OutputFile, FollowsASymbolicLink) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   std::filesystem::create_directory(directory / "elsewhere");
   store(directory / "elsewhere/real.txt", bytes("before"));
   std::filesystem::create_symlink("elsewhere/real.txt", directory / "link.txt");
@@ -75,7 +75,7 @@ TEST(OutputFile, FollowsASymbolicLink) {
 }
 
 TEST(OutputFile, TakesNamesAsLongAsTheSystemDoes) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const std::string name(255, 'n');
   EXPECT_TRUE(write_file(directory / name, bytes("x")));
   EXPECT_EQ(directory.names(), Names{name});
@@ -84,7 +84,7 @@ TEST(OutputFile, TakesNamesAsLongAsTheSystemDoes) {
 }
 
 TEST(OutputFile, SaysWhyItCannotBeMade) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const std::string path = directory.path().string();
   EXPECT_EQ(creation_error(OutputFile::create(directory / "no/such/a.png")),
             path + "/no/such/a.png: cannot create: No such file or directory");
@@ -99,7 +99,7 @@ TEST(OutputFile, SaysWhyItCannotBeMade) {
 
 TEST(OutputFile, SaysThatADirectoryIsNotWritable) {
   constexpr uid_t kNobody = 65534;
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   ASSERT_EQ(::chmod(directory.path().c_str(), 0555), 0);
   const int code = exit_code_of_child([&] {
     if (::geteuid() == 0 && ::seteuid(kNobody) != 0) return 2;  // the superuser may write everywhere
@@ -114,7 +114,7 @@ TEST(OutputFile, AFullDiskIsAnError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   EXPECT_EQ(message(write_file("/dev/full", bytes("x"))), "/dev/full: cannot write: No space left on device");
   // By way of a link, pictures too; and the link stays.
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   std::filesystem::create_symlink("/dev/full", directory / "full.png");
   const Result<void> result =
       write_image(Image(9, 9, 3, PixelType::u8, Transfer::srgb), directory / "full.png");
@@ -124,7 +124,7 @@ TEST(OutputFile, AFullDiskIsAnError) {
 }
 
 TEST(OutputFile, ManyMayBeWrittenAtOnce) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   std::vector<std::thread> threads;
   threads.reserve(4);
   for (int t = 0; t < 4; ++t) {
@@ -142,7 +142,7 @@ TEST(OutputFile, ManyMayBeWrittenAtOnce) {
 }
 
 TEST(RemovePendingOutputs, RemovesWhatIsNotYetInPlace) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   ASSERT_TRUE(write_file(directory / "done", bytes("done")));
   Result<OutputFile> first = OutputFile::create(directory / "first");
   Result<OutputFile> second = OutputFile::create(directory / "second");
@@ -161,7 +161,7 @@ TEST(RemovePendingOutputs, RemovesWhatIsNotYetInPlace) {
 }
 
 TEST(RemovePendingOutputs, AnswersASignal) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const int code = exit_code_of_child([&] {
     std::signal(SIGINT, [](int) {
       remove_pending_outputs();
@@ -177,7 +177,7 @@ TEST(RemovePendingOutputs, AnswersASignal) {
 }
 
 TEST(ReadFile, GivesTheWholeContent) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Bytes content(200'001, std::byte{42});
   store(directory / "a", content);
   EXPECT_EQ(*read_file(directory / "a"), content);
@@ -205,7 +205,7 @@ TEST(ReadFile, ReadsPipesToTheirEnd) {
 }
 
 TEST(ReadFile, SaysWhyItCannot) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const auto error = [](const std::filesystem::path& file) {
     const Result<std::vector<std::byte>> read = read_file(file);
     return read ? "no error" : to_string(read.error());

@@ -46,7 +46,7 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 }
 
 TEST(WritePng, HoldsExactlyThePixelsOfEveryKind) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   for (const int channels : {1, 2, 3, 4}) {
     for (const PixelType type : {PixelType::u8, PixelType::u16}) {
       const Image image = type == PixelType::u8 ? gradient<std::uint8_t>(61, 67, channels, type)
@@ -63,7 +63,7 @@ TEST(WritePng, HoldsExactlyThePixelsOfEveryKind) {
 }
 
 TEST(WritePng, SaysThatItIsSrgbUnlessThePixelsAreData) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   Image image(1, 1, 1, PixelType::u8, Transfer::srgb);
   expect_written(write_image(image, directory / "colour.png"));
   image.set_transfer(Transfer::linear);
@@ -77,7 +77,7 @@ TEST(WritePng, SaysThatItIsSrgbUnlessThePixelsAreData) {
 }
 
 TEST(WritePng, EncodesLinearLight) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const LayeredImage image =
       layered(2, 1, {{"B", {0.5F, 0}}, {"G", {1, 2}}, {"R", {0.0F, 0.2158605F}}, {"Z", {9, 9}}});
   expect_written(write_image(image, directory / "a.png"));
@@ -88,7 +88,7 @@ TEST(WritePng, EncodesLinearLight) {
 }
 
 TEST(WritePng, ExposureMultipliesLightButNotAlpha) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const LayeredImage image = layered(1, 1, {{"A", {1}}, {"Y", {0.25F}}});
   expect_written(write_image(image, directory / "a.png", {.exposure = 2}));
   EXPECT_EQ(values_u8(*read_image(directory / "a.png")), (std::vector{188, 255}));
@@ -99,7 +99,7 @@ TEST(WritePng, ExposureMultipliesLightButNotAlpha) {
 }
 
 TEST(WritePng, DividesColoursByAlpha) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const LayeredImage image =
       layered(3, 1, {{"R", {0.25F, 0.5F, 0}}, {"G", {0.5F, 0, 0}}, {"B", {0, 0, 0}}, {"A", {0.5F, 1, 0}}});
   expect_written(write_image(image, directory / "a.png"));
@@ -108,7 +108,7 @@ TEST(WritePng, DividesColoursByAlpha) {
 }
 
 TEST(WritePng, ChangesDepthThroughLinearLight) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Image image = gradient<std::uint8_t>(16, 16, 3, PixelType::u8);
   expect_written(write_image(image, directory / "a.png", {.depth = Depth::bits16}));
   const Image wide = *read_image(directory / "a.png");
@@ -118,7 +118,7 @@ TEST(WritePng, ChangesDepthThroughLinearLight) {
 }
 
 TEST(WriteExr, FloatsRoundTripBitForBit) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const std::vector<float> values = {0,      -0.0F,   1.0F / 3, -kInfinity,   kInfinity,
                                      1e-45F, 3.4e38F, -7e-39F,  std::nanf("")};
   const LayeredImage image = layered(3, 3, {{"R", values}, {"light.sun.R", values}});
@@ -130,7 +130,7 @@ TEST(WriteExr, FloatsRoundTripBitForBit) {
 }
 
 TEST(WriteExr, KeepsColoursAsHalfAndDataAsFloat) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const float third = 1.0F / 3, half_third = 0.333251953125F;
   std::vector<Channel> channels;
   for (const char* name : {"A", "B", "G", "R", "albedo.R", "light.Zoe.R"})
@@ -149,7 +149,7 @@ TEST(WriteExr, KeepsColoursAsHalfAndDataAsFloat) {
 }
 
 TEST(WriteExr, DoesNotWriteInfinityForLargeValues) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const LayeredImage image = layered(2, 1,
                                      {{"B", {65519, 1.0F / 3}},
                                       {"G", {65520, 1.0F / 3}},
@@ -164,7 +164,7 @@ TEST(WriteExr, DoesNotWriteInfinityForLargeValues) {
 }
 
 TEST(WriteExr, KeepsMetadata) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   LayeredImage image = layered(1, 1, {{"Y", {1}}});
   image.metadata = {{"laterna.shadows", "map"}, {"an unusual key", "line one\nline two"}, {"empty", ""}};
   expect_written(write_image(image, directory / "a.exr"));
@@ -172,7 +172,7 @@ TEST(WriteExr, KeepsMetadata) {
 }
 
 TEST(WriteExr, HoldsNothingButThePicture) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const LayeredImage image = layered(64, 64, {{"Y", std::vector<float>(4096, 0.5F)}});
   expect_written(write_image(image, directory / "a.exr", {.threads = 1}));
   std::filesystem::create_directory(directory / "elsewhere");
@@ -181,7 +181,7 @@ TEST(WriteExr, HoldsNothingButThePicture) {
 }
 
 TEST(WriteImage, BytesDoNotDependOnTheNumberOfThreads) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   LayeredImage image = layered(257, 131, {{"R", {}}, {"G", {}}, {"B", {}}, {"A", {}}});
   float value = 0;
   for (Channel& channel : image.channels) {
@@ -197,7 +197,7 @@ TEST(WriteImage, BytesDoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(WritePfm, RoundTripsBitForBit) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const std::vector<float> values = {0, -0.0F, 1.0F / 3, kInfinity, 1e-45F, 3e38F};
   expect_written(
       write_image(layered(2, 3, {{"R", values}, {"B", values}, {"G", values}}), directory / "a.pfm"));
@@ -209,13 +209,13 @@ TEST(WritePfm, RoundTripsBitForBit) {
 }
 
 TEST(WritePfm, IsWhatItsDescriptionSays) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   expect_written(write_image(layered(1, 2, {{"Y", {1, 2}}}), directory / "a.pfm"));
   EXPECT_EQ(load(directory / "a.pfm"), bytes("Pf\n1 2\n-1.0\n") + bytes({0, 0, 0, 0x40, 0, 0, 0x80, 0x3F}));
 }
 
 TEST(WriteHdr, RoundsToSharedExponents) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const LayeredImage image = layered(6, 1,
                                      {{"R", {1, 0.999F, 1e-40F, -1, std::nanf(""), kInfinity}},
                                       {"G", {0.5F, 0, 0, 0.25F, 0, 1}},
@@ -228,7 +228,7 @@ TEST(WriteHdr, RoundsToSharedExponents) {
 }
 
 TEST(WriteHdr, WhatWasReadIsWrittenUnchanged) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   LayeredImage image = layered(300, 5, {{"R", {}}, {"G", {}}, {"B", {}}});
   for (int i = 0; i < 1500; ++i) {
     const float magnitude = std::ldexp(1.0F, i % 40 - 20);
@@ -249,14 +249,14 @@ TEST(WriteHdr, WhatWasReadIsWrittenUnchanged) {
 }
 
 TEST(WriteHdr, NarrowPicturesHaveNoRunLengths) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   expect_written(write_image(layered(2, 1, {{"Y", {1, 2}}}), directory / "a.hdr"));
   EXPECT_EQ(load(directory / "a.hdr"), bytes("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") +
                                            bytes({128, 128, 128, 129, 128, 128, 128, 130}));
 }
 
 TEST(ReadLayers, AreLinearAndMultipliedByAlphaOrAsStored) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   store(directory / "a.png", png(1, 1, 8, 6, bytes({0, 188, 255, 0, 51})));
   const LayeredImage linear = read_back(directory / "a.png");
   EXPECT_EQ(linear.find("A")->values[0], 0.2F);
@@ -273,7 +273,7 @@ TEST(ReadLayers, AreLinearAndMultipliedByAlphaOrAsStored) {
 }
 
 TEST(ReadLayers, EightBitPicturesSurviveTheWayThroughExr) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Image image = gradient<std::uint8_t>(32, 24, 3, PixelType::u8);
   expect_written(write_image(image, directory / "a.exr"));
   const Result<LayeredImage> layers = read_layered_image(directory / "a.exr");
@@ -283,7 +283,7 @@ TEST(ReadLayers, EightBitPicturesSurviveTheWayThroughExr) {
 }
 
 TEST(WriteImage, RefusesWhatAFormatCannotHold) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const LayeredImage depth_only = layered(1, 1, {{"Z", {1}}, {"N.X", {1}}});
   const LayeredImage grey = layered(1, 1, {{"Y", {1}}});
   const auto write = [&](const LayeredImage& image, std::string_view name, const WriteOptions& options = {}) {
@@ -330,7 +330,7 @@ TEST(WriteImage, RefusesWhatAFormatCannotHold) {
 }
 
 TEST(WriteImage, MinusIsPngOnStdout) {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Image image = gradient<std::uint8_t>(5, 4, 3, PixelType::u8);
   expect_written(write_image(image, directory / "expected.png"));
   const std::string file = directory / "stdout.png";
@@ -343,4 +343,11 @@ TEST(WriteImage, MinusIsPngOnStdout) {
 }
 
 }  // namespace
+TEST(KeepsLayers, IsSoForOpenExrInAnyCase) {
+  EXPECT_TRUE(keeps_layers("picture.exr"));
+  EXPECT_TRUE(keeps_layers("picture.EXR"));
+  EXPECT_FALSE(keeps_layers("picture.png"));
+  EXPECT_FALSE(keeps_layers("-"));
+}
+
 }  // namespace laterna
