@@ -5,15 +5,16 @@
 // pixels, so with E(X, Y) = 256 (a X + b Y) + c and c = 256 c' + r, 0 ≤ r < 256: E ≥ 0 exactly when
 // a X + b Y + c' ≥ 0. The factor 256 need not be carried, and all values of a tile fit 32 bits (kGuardBand).
 //
-// Traversal. Small triangles visit the blocks of their bounding box. Wide ones descend 64 → 16 → 4 pixels, sixteen
-// cells a step, leaving out cells outside an edge and edges that a cell lies wholly inside of (Abrash, Rasterization
-// on Larrabee, 2009). Cells already covered by something nearer are left out as a whole (Greene et al., Hierarchical
-// Z-buffer visibility, 1993).
+// Traversal. Small triangles visit the blocks of their bounding box. Wide ones go down the tile a row of sixteen blocks
+// at a time: one comparison per edge tells which blocks of the row the triangle touches, and another which an edge
+// crosses (Abrash, Rasterization on Larrabee, 2009, has two such levels; a tile this small needs one). Blocks already
+// covered by something nearer are left out (Greene et al., Hierarchical Z-buffer visibility, 1993).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/tile_raster.simd.cc"
 #include "base/simd.h"
 
 #include <hwy/foreach_target.h>
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -37,6 +38,22 @@ alignas(64) constexpr float kLaneX[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0,
 alignas(64) constexpr float kLaneY[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 alignas(64) constexpr std::int32_t kLaneXInt[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr std::int32_t kLaneYInt[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+alignas(64) constexpr double kLaneXDouble[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+alignas(64) constexpr double kLaneYDouble[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+// First pixels of a row of blocks.
+alignas(64) constexpr double kBlockColumn[kBlocksPerSide] = {0,  4,  8,  12, 16, 20, 24, 28,
+                                                             32, 36, 40, 44, 48, 52, 56, 60};
+
+HWY_INLINE std::uint32_t MaskBits(hn::Mask<IntTag> mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(IntTag(), mask, bits);
+  return bits[0] | std::uint32_t{bits[1]} << 8U;
+}
+HWY_INLINE FloatMask MaskFromBits(std::uint32_t mask) {
+  const std::uint8_t bits[8] = {static_cast<std::uint8_t>(mask & 255U),
+                                static_cast<std::uint8_t>(mask >> 8U & 255U)};
+  return hn::LoadMaskBits(FloatTag(), bits);
+}
 
 // a X + b Y + c ≥ 0 inside, X and Y whole pixels from the view's origin.
 struct Edge {
@@ -60,8 +77,15 @@ HWY_INLINE void SetUpEdges(const BinnedTriangle& t, const TileTask& task, Edge* 
 
 // ---------------------------------------------------------------------------------------------- sinks
 
-// A sink takes the covered samples of a block: `VisitVector` for one vector of lanes, and for cut-outs `Passing` and
-// `Write` with a bit per sample.
+// A sink takes the covered samples of a block: `VisitVector` for one vector of lanes, which says whether any was taken,
+// and for cut-outs `Passing` and `Write` with a bit per sample. `Farthest`: the least reversed depth of a block.
+HWY_INLINE float FarthestOf(const float* depth) {
+  const FloatTag d;
+  auto least = hn::Load(d, depth);
+  for (std::size_t k = 1; k < kVectors; ++k) least = hn::Min(least, hn::Load(d, depth + k * kLanes));
+  return hn::GetLane(hn::MinOfLanes(d, least));
+}
+
 class DepthSink {
  public:
   static constexpr bool kOccludes = true;
@@ -69,11 +93,15 @@ class DepthSink {
   static bool Takes(std::uint32_t kind) { return (kind & kBlended) == 0; }
   void Begin(TriangleId) {}
 
-  HWY_INLINE void VisitVector(std::size_t sample, FloatMask inside, FloatVector q) {
+  HWY_INLINE bool VisitVector(std::size_t sample, FloatMask inside, FloatVector q) {
     const FloatTag d;
     const auto old = hn::Load(d, depth_ + sample);
-    hn::Store(hn::IfThenElse(hn::And(inside, q > old), q, old), d, depth_ + sample);
+    const auto passing = hn::And(inside, q > old);
+    if (hn::AllFalse(d, passing)) return false;
+    hn::Store(hn::IfThenElse(passing, q, old), d, depth_ + sample);
+    return true;
   }
+  [[nodiscard]] float Farthest(std::size_t block) const { return FarthestOf(depth_ + block); }
   std::uint32_t Passing(std::size_t block, const float* q, std::uint32_t mask) const {
     std::uint32_t passing = 0;
     for (std::size_t i = 0; i < kBlockPixels; ++i) passing |= std::uint32_t{q[i] > depth_[block + i]} << i;
@@ -96,13 +124,13 @@ class VisibilitySink {
   static bool Takes(std::uint32_t kind) { return (kind & kBlended) == 0; }
   void Begin(TriangleId id) { id_ = id; }
 
-  HWY_INLINE void VisitVector(std::size_t sample, FloatMask inside, FloatVector q) {
+  HWY_INLINE bool VisitVector(std::size_t sample, FloatMask inside, FloatVector q) {
     const FloatTag d;
     const IntTag di;
     auto* ids = reinterpret_cast<std::int32_t*>(ids_ + sample);
     const auto old = hn::Load(d, depth_ + sample);
     auto passing = hn::And(inside, q >= old);
-    if (hn::AllFalse(d, passing)) return;
+    if (hn::AllFalse(d, passing)) return false;
     const auto old_ids = hn::Load(di, ids);
     const auto id = hn::Set(di, static_cast<std::int32_t>(id_));
     const auto tied = hn::And(passing, q == old);
@@ -114,7 +142,9 @@ class VisibilitySink {
     }
     hn::Store(hn::IfThenElse(passing, q, old), d, depth_ + sample);
     hn::Store(hn::IfThenElse(hn::RebindMask(di, passing), id, old_ids), di, ids);
+    return true;
   }
+  [[nodiscard]] float Farthest(std::size_t block) const { return FarthestOf(depth_ + block); }
   std::uint32_t Passing(std::size_t block, const float* q, std::uint32_t mask) const {
     std::uint32_t passing = 0;
     for (std::size_t i = 0; i < kBlockPixels; ++i) {
@@ -145,10 +175,10 @@ class FragmentSink {
   static bool Takes(std::uint32_t kind) { return (kind & kBlended) != 0; }
   void Begin(TriangleId id) { id_ = id; }
 
-  HWY_INLINE void VisitVector(std::size_t sample, FloatMask inside, FloatVector q) {
+  HWY_INLINE bool VisitVector(std::size_t sample, FloatMask inside, FloatVector q) {
     const FloatTag d;
     const auto passing = hn::And(inside, q > hn::Load(d, depth_ + sample));
-    if (hn::AllFalse(d, passing)) return;
+    if (hn::AllFalse(d, passing)) return false;
     alignas(64) float depths[kLanes];
     hn::Store(q, d, depths);
     std::uint8_t bits[8] = {};
@@ -157,7 +187,10 @@ class FragmentSink {
       const auto i = static_cast<std::size_t>(__builtin_ctz(mask));
       fragments_.push_back({static_cast<std::uint32_t>(sample + i), id_, depths[i]});
     }
+    return true;
   }
+  // What lies behind an opaque surface is left out by its depth alone.
+  [[nodiscard]] float Farthest(std::size_t block) const { return FarthestOf(depth_ + block); }
   // Blended triangles are never cut while rasterising: their alpha weighs them in shading.
   static std::uint32_t Passing(std::size_t, const float*, std::uint32_t mask) { return mask; }
   static void Write(std::size_t, const float*, std::uint32_t) {}
@@ -170,6 +203,159 @@ class FragmentSink {
 
 // ---------------------------------------------------------------------------------------------- traversal
 
+// The blocks of a tile that a triangle's bounding box touches, and the pixels it may cover there.
+struct PixelBox {
+  int x_first, x_last, y_first, y_last;
+  [[nodiscard]] bool IsEmpty() const { return x_first > x_last || y_first > y_last; }
+};
+
+// Depth of a wide triangle, in double until the last rounding.
+class WideDepth {
+ public:
+  WideDepth(const BinnedTriangle& t, const WidePlane& plane, double x, double y)
+      : plane_(plane), y_(y), q_min_(t.q_min), q_max_(t.q_max) {
+    const DoubleTag dd;
+    const auto q_dx = hn::Set(dd, plane.q_dx), q_dy = hn::Set(dd, plane.q_dy);
+    for (std::size_t k = 0; k < kDoubles; ++k) {
+      const std::size_t i = k * hn::MaxLanes(dd);
+      lane_[k] = q_dx * hn::Load(dd, kLaneXDouble + i) + q_dy * hn::Load(dd, kLaneYDouble + i);
+      column_[k] = hn::Set(dd, plane.q_0) + q_dx * (hn::Set(dd, x) + hn::Load(dd, kBlockColumn + i));
+    }
+    const double reach_x = plane.q_dx * (kBlockSide - 1), reach_y = plane.q_dy * (kBlockSide - 1);
+    reach_high_ = static_cast<float>(std::max(reach_x, 0.0) + std::max(reach_y, 0.0));
+    reach_low_ = static_cast<float>(std::min(reach_x, 0.0) + std::min(reach_y, 0.0));
+  }
+
+  // Bounds of a row of blocks: no sample that the triangle covers is nearer or farther.
+  struct Bounds {
+    FloatVector nearest[kVectors], farthest[kVectors];
+  };
+  // Row `by` pixels down the tile: keeps the depths of its blocks' first samples.
+  HWY_INLINE Bounds EnterRow(int by) {
+    const FloatTag d;
+    const DoubleTag dd;
+    const auto y_part = hn::Set(dd, plane_.q_dy * (y_ + by));
+    hn::Vec<DoubleTag> first[kDoubles];
+    for (std::size_t k = 0; k < kDoubles; ++k) {
+      first[k] = column_[k] + y_part;
+      hn::Store(first[k], dd, row_ + k * hn::MaxLanes(dd));
+    }
+    // More than all roundings.
+    const auto slack = hn::Set(d, 1e-6F);
+    const auto high = hn::Set(d, reach_high_), low = hn::Set(d, reach_low_);
+    Bounds bounds;
+    for (std::size_t k = 0; k < kVectors; ++k) {
+      const auto q = Rounded(d, first + k * kDoublesPerVector);
+      const auto error = (hn::Abs(q) + (high - low)) * slack;
+      bounds.nearest[k] = Held(q + (high + error));
+      bounds.farthest[k] = Held(q + (low - error));
+    }
+    return bounds;
+  }
+
+  // Vector k of the row's block number `column`.
+  HWY_INLINE FloatVector At(std::size_t column, std::size_t k) const {
+    const FloatTag d;
+    const auto first = hn::Set(DoubleTag(), row_[column]);
+    hn::Vec<DoubleTag> q[kDoublesPerVector];
+    for (std::size_t i = 0; i < kDoublesPerVector; ++i) q[i] = first + lane_[k * kDoublesPerVector + i];
+    return Held(Rounded(d, q));
+  }
+
+ private:
+  static constexpr std::size_t kDoubles = kBlockPixels / hn::MaxLanes(DoubleTag());
+  static constexpr std::size_t kDoublesPerVector = kLanes / hn::MaxLanes(DoubleTag());
+
+  template <class D>  // a FloatTag: the branch not taken would not compile
+  static HWY_INLINE hn::Vec<D> Rounded(D d, const hn::Vec<DoubleTag>* q) {
+    const hn::Rebind<float, DoubleTag> part;
+    if constexpr (kDoublesPerVector == 1) {
+      return hn::DemoteTo(d, q[0]);
+    } else {
+      return Combine(d, hn::DemoteTo(part, q[1]), hn::DemoteTo(part, q[0]));
+    }
+  }
+  [[nodiscard]] HWY_INLINE FloatVector Held(FloatVector q) const {
+    const FloatTag d;
+    return hn::Min(hn::Max(q, hn::Set(d, q_min_)), hn::Set(d, q_max_));
+  }
+
+  WidePlane plane_;
+  double y_;  // of the tile's first sample
+  float q_min_, q_max_;
+  float reach_high_, reach_low_;         // from a block's first sample to its others
+  hn::Vec<DoubleTag> lane_[kDoubles];    // from a block's first sample to each
+  hn::Vec<DoubleTag> column_[kDoubles];  // q without its part in y, of the first samples of a row of blocks
+  alignas(64) double row_[kBlocksPerSide];
+};
+
+// Edge functions of a wide triangle, at a row of blocks.
+class WideEdges {
+ public:
+  WideEdges(const Edge* edges, int tile_x, int tile_y, int by) {
+    const IntTag di;
+    for (int i = 0; i < 3; ++i) {
+      const Edge& edge = edges[i];
+      // Beyond ±2³⁰ the sign is the same all over the tile, so it may be held there.
+      const std::int64_t at_tile = std::int64_t{edge.a} * tile_x + std::int64_t{edge.b} * tile_y + edge.c;
+      const auto e = static_cast<std::int32_t>(
+          std::clamp<std::int64_t>(at_tile, -(std::int64_t{1} << 30), std::int64_t{1} << 30));
+      const auto a = hn::Set(di, edge.a), b = hn::Set(di, edge.b);
+      for (std::size_t k = 0; k < kVectors; ++k) {
+        lane_[i][k] = a * hn::Load(di, kLaneXInt + k * kLanes) + b * hn::Load(di, kLaneYInt + k * kLanes);
+        row_[i][k] = hn::Set(di, e + edge.b * by) +
+                     hn::ShiftLeft<2>(a) * (hn::Iota(di, static_cast<std::int32_t>(k * kLanes)));
+      }
+      step_[i] = edge.b * kBlockSide;
+      reach_high_[i] = (std::max(edge.a, 0) + std::max(edge.b, 0)) * (kBlockSide - 1);
+      reach_low_[i] = (std::min(edge.a, 0) + std::min(edge.b, 0)) * (kBlockSide - 1);
+    }
+  }
+
+  // Blocks of the row, a bit each.
+  struct Row {
+    std::uint32_t touched = 0;  // by the triangle
+    std::uint32_t crossed = 0;  // by one of its edges
+  };
+  HWY_INLINE Row Enter() {
+    const IntTag di;
+    Row row;
+    for (std::size_t k = 0; k < kVectors; ++k) {
+      auto outside = hn::Zero(di), crossing = hn::Zero(di);
+      for (int i = 0; i < 3; ++i) {
+        hn::Store(row_[i][k], di, first_[i] + k * kLanes);
+        outside = hn::Or(outside, row_[i][k] + hn::Set(di, reach_high_[i]));
+        crossing = hn::Or(crossing, row_[i][k] + hn::Set(di, reach_low_[i]));
+      }
+      row.touched |= MaskBits(hn::Not(outside < hn::Zero(di))) << (k * kLanes);
+      row.crossed |= MaskBits(crossing < hn::Zero(di)) << (k * kLanes);
+    }
+    return row;
+  }
+  HWY_INLINE void Leave() {
+    const IntTag di;
+    for (int i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < kVectors; ++k) row_[i][k] = row_[i][k] + hn::Set(di, step_[i]);
+    }
+  }
+
+  // Vector k of the row's block number `column`.
+  HWY_INLINE FloatMask Inside(std::size_t column, std::size_t k) const {
+    const FloatTag d;
+    const IntTag di;
+    auto negative = hn::Set(di, first_[0][column]) + lane_[0][k];
+    for (int i = 1; i < 3; ++i) negative = hn::Or(negative, hn::Set(di, first_[i][column]) + lane_[i][k]);
+    return hn::RebindMask(d, hn::Not(negative < hn::Zero(di)));
+  }
+
+ private:
+  IntVector lane_[3][kVectors];  // from a block's first sample to each
+  IntVector row_[3][kVectors];   // at the first samples of a row's blocks
+  std::int32_t step_[3];         // to the next row
+  std::int32_t reach_high_[3], reach_low_[3];
+  alignas(64) std::int32_t first_[3][kBlocksPerSide];
+};
+
 template <class Sink>
 class TileRaster {
  public:
@@ -180,33 +366,40 @@ class TileRaster {
         tile_y_(task.tile_y * kTileSide - task.view->origin_y),
         sample_x_(0.5 + task.offset_x / double{kSubpixels}),
         sample_y_(0.5 + task.offset_y / double{kSubpixels}) {
-    std::fill_n(covered_, 16, task.view->reversed_far);
+    std::fill_n(farthest_, kBlocks, task.view->reversed_far);
   }
 
   void DrawAll() {
     for (const Batch& batch : task_.batches) {
-      for (const std::uint32_t i : batch.in_tile(task_.tile_x, task_.tile_y)) {
-        const BinnedTriangle& t = batch.triangles[i];
+      const std::span<const std::uint32_t> triangles = batch.in_tile(task_.tile_x, task_.tile_y);
+      for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const std::size_t ahead = std::min(i + kPrefetched, triangles.size() - 1);
+        hwy::Prefetch(&batch.triangles[triangles[ahead]]);
+        const BinnedTriangle& t = batch.triangles[triangles[i]];
         if (!Sink::Takes(t.kind)) continue;
         sink_.Begin(t.id);
+        const PixelBox box = BoxOf(t);
+        if (box.IsEmpty()) continue;
         if ((t.kind & kWide) != 0) {
-          DrawWide(t, batch.planes[t.plane]);
+          DrawWide(t, box, batch.planes[t.plane]);
         } else {
-          DrawSmall(t);
+          DrawSmall(t, box);
         }
       }
     }
   }
 
  private:
+  static constexpr std::size_t kBlocks = std::size_t{kBlocksPerSide} * kBlocksPerSide;
+  static constexpr std::size_t kPrefetched = 4;  // triangles
+
   // Whether the alpha cut must be asked about this triangle.
   [[nodiscard]] bool IsCut(const BinnedTriangle& t) const {
     return (t.kind & kMasked) != 0 && task_.cut != nullptr;
   }
 
-  void DrawSmall(const BinnedTriangle& t) {
-    const FloatTag d;
-    // First and last pixel of the bounding box whose sample may be covered, within the tile.
+  // First and last pixel of the bounding box whose sample may be covered, within the tile.
+  [[nodiscard]] PixelBox BoxOf(const BinnedTriangle& t) const {
     const auto first = [](const std::int32_t* v, int offset, int tile) {
       return std::max(((std::min({v[0], v[1], v[2]}) + kSubpixels / 2 - 1 - offset) >> kSubpixelBits) - tile,
                       0);
@@ -215,10 +408,12 @@ class TileRaster {
       return std::min(((std::max({v[0], v[1], v[2]}) - kSubpixels / 2 - offset) >> kSubpixelBits) - tile,
                       kTileSide - 1);
     };
-    const int x0 = first(t.x, task_.offset_x, tile_x_), x1 = last(t.x, task_.offset_x, tile_x_);
-    const int y0 = first(t.y, task_.offset_y, tile_y_), y1 = last(t.y, task_.offset_y, tile_y_);
-    if (x0 > x1 || y0 > y1) return;
+    return {first(t.x, task_.offset_x, tile_x_), last(t.x, task_.offset_x, tile_x_),
+            first(t.y, task_.offset_y, tile_y_), last(t.y, task_.offset_y, tile_y_)};
+  }
 
+  void DrawSmall(const BinnedTriangle& t, const PixelBox& box) {
+    const FloatTag d;
     Edge edges[3];
     SetUpEdges(t, task_, edges);
     FloatVector lane_e[3][kVectors];
@@ -233,9 +428,10 @@ class TileRaster {
     }
     const auto q_min = hn::Set(d, t.q_min), q_max = hn::Set(d, t.q_max);
     const bool is_cut = IsCut(t);
-    for (int by = y0 & ~3; by <= y1; by += kBlockSide) {
-      for (int bx = x0 & ~3; bx <= x1; bx += kBlockSide) {
-        if (t.q_max < covered_[(by >> 4) * 4 + (bx >> 4)]) continue;
+    for (int by = box.y_first & ~3; by <= box.y_last; by += kBlockSide) {
+      for (int bx = box.x_first & ~3; bx <= box.x_last; bx += kBlockSide) {
+        const std::size_t block = BlockAt(bx, by);
+        if (t.q_max < farthest_[block]) continue;
         // Below 2²⁴ in magnitude for a small triangle near its bounding box: exact in float.
         float e[3];
         for (int i = 0; i < 3; ++i) {
@@ -254,160 +450,60 @@ class TileRaster {
         };
         const auto depth = [&](std::size_t k)
                                HWY_ATTR { return hn::Min(hn::Max(hn::Set(d, q) + lane_q[k], q_min), q_max); };
-        VisitBlock(BlockStart(bx, by), bx, by, t.id, is_cut, inside, depth);
+        VisitBlock(block, bx, by, t.id, is_cut, inside, depth);
       }
     }
   }
 
-  struct WideEdges {
-    std::int32_t a[3], b[3], e[3];  // e at the tile's first sample, saturated
-    IntVector lane[3][kVectors];    // a X + b Y over a 4 × 4 grid
-  };
-
-  void DrawWide(const BinnedTriangle& t, const WidePlane& plane) {
-    const IntTag di;
+  void DrawWide(const BinnedTriangle& t, const PixelBox& box, const WidePlane& plane) {
     Edge edges[3];
     SetUpEdges(t, task_, edges);
-    WideEdges w;
-    for (int i = 0; i < 3; ++i) {
-      w.a[i] = edges[i].a;
-      w.b[i] = edges[i].b;
-      // Beyond ±2³⁰ the sign is the same all over the tile, so it may be held there.
-      const std::int64_t e =
-          std::int64_t{edges[i].a} * tile_x_ + std::int64_t{edges[i].b} * tile_y_ + edges[i].c;
-      w.e[i] = static_cast<std::int32_t>(
-          std::clamp<std::int64_t>(e, -(std::int64_t{1} << 30), std::int64_t{1} << 30));
-      for (std::size_t k = 0; k < kVectors; ++k) {
-        w.lane[i][k] = hn::Set(di, w.a[i]) * hn::Load(di, kLaneXInt + k * kLanes) +
-                       hn::Set(di, w.b[i]) * hn::Load(di, kLaneYInt + k * kLanes);
+    const int by_first = box.y_first & ~3;
+    WideEdges wide_edges(edges, tile_x_, tile_y_, by_first);
+    WideDepth depth(t, plane, tile_x_ + sample_x_, tile_y_ + sample_y_);
+    const std::uint32_t columns = (2U << (box.x_last >> 2)) - (1U << (box.x_first >> 2));
+    for (int by = by_first; by <= box.y_last; by += kBlockSide) {
+      const WideEdges::Row row = wide_edges.Enter();
+      if ((row.touched & columns) != 0) {
+        DrawRow(t, by, wide_edges, {row.touched & columns, row.crossed}, depth);
       }
-    }
-    WideDepth depth(t, plane);
-    const Cells cells = FindCells<4>(w, w.e, 7U);
-    for (std::uint32_t mask = cells.touched; mask != 0; mask &= mask - 1) {
-      const int cell = __builtin_ctz(mask);
-      const std::uint32_t crossing = (cells.crossing[0] >> cell & 1U) |
-                                     (cells.crossing[1] >> cell & 1U) << 1U |
-                                     (cells.crossing[2] >> cell & 1U) << 2U;
-      DrawCell(t, w, depth, cell, crossing);
+      wide_edges.Leave();
     }
   }
 
-  // Which of the sixteen cells of 2^kShift pixels an origin's 4 × 4 grid touch the triangle, and which edges cross them.
-  struct Cells {
-    std::uint32_t touched, crossing[3];
-  };
-  template <int kShift>
-  HWY_INLINE Cells FindCells(const WideEdges& w, const std::int32_t* e, std::uint32_t edges) const {
-    const IntTag di;
-    constexpr int kReach = (1 << kShift) - 1;
-    Cells cells = {0xFFFFU, {0, 0, 0}};
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      if ((edges >> i & 1U) == 0) continue;
-      const auto high = hn::Set(di, e[i] + (std::max(w.a[i], 0) + std::max(w.b[i], 0)) * kReach);
-      const auto low = hn::Set(di, e[i] + (std::min(w.a[i], 0) + std::min(w.b[i], 0)) * kReach);
-      std::uint32_t outside = 0;
-      for (std::size_t k = 0; k < kVectors; ++k) {
-        const auto lane = hn::ShiftLeft<kShift>(w.lane[i][k]);
-        outside |= MaskBits(high + lane < hn::Zero(di)) << (k * kLanes);
-        cells.crossing[i] |= MaskBits(low + lane < hn::Zero(di)) << (k * kLanes);
-      }
-      cells.touched &= ~outside;
-    }
-    return cells;
-  }
-
-  static HWY_INLINE std::uint32_t MaskBits(hn::Mask<IntTag> mask) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(IntTag(), mask, bits);
-    return bits[0] | std::uint32_t{bits[1]} << 8U;
-  }
-
-  // Depth of a wide triangle, in double until the last rounding.
-  struct WideDepth {
-    WideDepth(const BinnedTriangle& t, const WidePlane& p) : plane(p), q_min(t.q_min), q_max(t.q_max) {
-      const DoubleTag dd;
-      alignas(64) double offsets[kBlockPixels];
-      for (std::size_t i = 0; i < kBlockPixels; ++i)
-        offsets[i] = p.q_dx * kLaneXInt[i] + p.q_dy * kLaneYInt[i];
-      for (std::size_t k = 0; k < kBlockPixels / hn::Lanes(dd); ++k)
-        lane[k] = hn::Load(dd, offsets + k * hn::Lanes(dd));
-    }
-    [[nodiscard]] double At(double x, double y) const { return plane.q_0 + plane.q_dx * x + plane.q_dy * y; }
-    // The block whose first sample is at (x, y).
-    HWY_INLINE void Evaluate(double x, double y, float* q) const {
-      const DoubleTag dd;
-      const hn::Rebind<float, DoubleTag> df;
-      const auto base = hn::Set(dd, At(x, y));
-      for (std::size_t k = 0; k < kBlockPixels / hn::Lanes(dd); ++k) {
-        hn::Store(hn::DemoteTo(df, base + lane[k]), df, q + k * hn::Lanes(dd));
-      }
-    }
-    WidePlane plane;
-    float q_min, q_max;
-    hn::Vec<DoubleTag> lane[kBlockPixels / hn::MaxLanes(DoubleTag())];
-  };
-
-  // Draws what the triangle covers of a 16 × 16 cell. `crossing`: edges that may pass through it, a bit each.
-  void DrawCell(const BinnedTriangle& t, const WideEdges& w, const WideDepth& depth, int cell,
-                std::uint32_t crossing) {
-    const int cell_x = (cell & 3) * 16;
-    const int cell_y = (cell >> 2) * 16;
-    const auto [nearest, farthest] = DepthRange(depth, cell_x, cell_y);
-    if (nearest < covered_[cell]) return;
-    std::int32_t e[3];
-    for (int i = 0; i < 3; ++i) e[i] = w.e[i] + w.a[i] * cell_x + w.b[i] * cell_y;
-    const bool is_cut = IsCut(t);
-    const Cells blocks = FindCells<2>(w, e, crossing);
-    for (std::uint32_t mask = blocks.touched; mask != 0; mask &= mask - 1) {
-      const int block = __builtin_ctz(mask);
-      const int bx = (block & 3) * kBlockSide;
-      const int by = (block >> 2) * kBlockSide;
-      std::uint32_t crossed = 0;
-      for (std::uint32_t i = 0; i < 3; ++i) crossed |= (blocks.crossing[i] >> block & 1U) << i;
-      DrawWideBlock(t, w, depth, cell_x + bx, cell_y + by, crossed, is_cut);
-    }
-    if (Sink::kOccludes && crossing == 0 && !is_cut) covered_[cell] = std::max(covered_[cell], farthest);
-  }
-
-  // Bounds of the reversed depth over a cell's samples, widened by more than all roundings.
-  [[nodiscard]] std::pair<float, float> DepthRange(const WideDepth& depth, int cell_x, int cell_y) const {
-    const double x = tile_x_ + cell_x + sample_x_;
-    const double y = tile_y_ + cell_y + sample_y_;
-    const double corner = depth.At(x, y);
-    const double reach_x = depth.plane.q_dx * 15;
-    const double reach_y = depth.plane.q_dy * 15;
-    const double high = corner + std::max(reach_x, 0.0) + std::max(reach_y, 0.0);
-    const double low = corner + std::min(reach_x, 0.0) + std::min(reach_y, 0.0);
-    constexpr double kSlack = 1e-6;
-    const double q_min = depth.q_min, q_max = depth.q_max;
-    return {static_cast<float>(std::clamp(high, q_min, q_max) * (1 + kSlack)),
-            static_cast<float>(std::clamp(low, q_min, q_max) * (1 - kSlack))};
-  }
-
-  HWY_INLINE void DrawWideBlock(const BinnedTriangle& t, const WideEdges& w, const WideDepth& wide_depth,
-                                int bx, int by, std::uint32_t crossed, bool is_cut) {
+  void DrawRow(const BinnedTriangle& t, int by, const WideEdges& edges, const WideEdges::Row& row,
+               WideDepth& depth) {
     const FloatTag d;
-    const IntTag di;
-    alignas(64) float q[kBlockPixels];
-    wide_depth.Evaluate(tile_x_ + bx + sample_x_, tile_y_ + by + sample_y_, q);
-    const auto q_min = hn::Set(d, t.q_min), q_max = hn::Set(d, t.q_max);
-    const auto depth = [&](std::size_t k)
-                           HWY_ATTR { return hn::Min(hn::Max(hn::Load(d, q + k * kLanes), q_min), q_max); };
-    std::int32_t e[3];
-    for (int i = 0; i < 3; ++i) e[i] = w.e[i] + w.a[i] * bx + w.b[i] * by;
-    const auto inside = [&](std::size_t k) HWY_ATTR {
-      auto negative = hn::Zero(di);
-      for (int i = 0; i < 3; ++i) {
-        if ((crossed >> i & 1U) != 0) negative = hn::Or(negative, hn::Set(di, e[i]) + w.lane[i][k]);
-      }
-      return hn::RebindMask(d, hn::Not(negative < hn::Zero(di)));
-    };
-    VisitBlock(BlockStart(bx, by), bx, by, t.id, is_cut, inside, depth);
+    const std::size_t first = BlockAt(0, by);
+    const WideDepth::Bounds bounds = depth.EnterRow(by);
+    const bool is_cut = IsCut(t);
+    std::uint32_t hidden = 0;
+    for (std::size_t k = 0; k < kVectors; ++k) {
+      const auto farthest = hn::Load(d, farthest_ + first + k * kLanes);
+      hidden |= MaskBits(hn::RebindMask(IntTag(), bounds.nearest[k] < farthest)) << (k * kLanes);
+    }
+    const std::uint32_t drawn = row.touched & ~hidden;
+    for (std::uint32_t mask = drawn; mask != 0; mask &= mask - 1) {
+      const auto column = static_cast<std::size_t>(__builtin_ctz(mask));
+      const bool is_crossed = (row.crossed >> column & 1U) != 0;
+      const auto inside = [&](std::size_t k) HWY_ATTR {
+        return is_crossed ? edges.Inside(column, k)
+                          : hn::RebindMask(d, hn::MaskFromVec(hn::Set(IntTag(), -1)));
+      };
+      const auto q = [&](std::size_t k) HWY_ATTR { return depth.At(column, k); };
+      VisitBlock(first + column, static_cast<int>(column) * kBlockSide, by, t.id, is_cut, inside, q);
+    }
+    if (!Sink::kOccludes || is_cut) return;
+    for (std::size_t k = 0; k < kVectors; ++k) {
+      const auto whole = MaskFromBits((drawn & ~row.crossed) >> (k * kLanes));
+      float* farthest = farthest_ + first + k * kLanes;
+      const auto old = hn::Load(d, farthest);
+      hn::Store(hn::IfThenElse(whole, hn::Max(old, bounds.farthest[k]), old), d, farthest);
+    }
   }
 
-  static std::size_t BlockStart(int bx, int by) {
-    return static_cast<std::size_t>(((by >> 2) * kBlocksPerSide + (bx >> 2)) * kBlockPixels);
+  static std::size_t BlockAt(int bx, int by) {
+    return static_cast<std::size_t>((by >> 2) * kBlocksPerSide + (bx >> 2));
   }
 
   template <class Inside, class Depth>
@@ -415,14 +511,18 @@ class TileRaster {
                              const Inside& inside, const Depth& depth) {
     const FloatTag d;
     if (HWY_UNLIKELY(is_cut)) {
-      VisitCutBlock(block, bx, by, id, inside, depth);
+      VisitCutBlock(block * kBlockPixels, bx, by, id, inside, depth);
       return;
     }
+    bool is_covered = false, is_taken = false;
     for (std::size_t k = 0; k < kVectors; ++k) {
       const auto covered = inside(k);
       if (hn::AllFalse(d, covered)) continue;
-      sink_.VisitVector(block + k * kLanes, covered, depth(k));
+      is_covered = true;
+      is_taken |= sink_.VisitVector(block * kBlockPixels + k * kLanes, covered, depth(k));
     }
+    // In vain: what hides this triangle may hide the next.
+    if (is_covered && !is_taken) farthest_[block] = sink_.Farthest(block * kBlockPixels);
   }
 
   template <class Inside, class Depth>
@@ -446,9 +546,9 @@ class TileRaster {
 
   const TileTask& task_;
   Sink sink_;
-  int tile_x_, tile_y_;         // first pixel of the tile, from the view's origin
-  double sample_x_, sample_y_;  // of the sample within its pixel
-  float covered_[16];           // every sample of the 16 × 16 cell is at least this near
+  int tile_x_, tile_y_;                  // first pixel of the tile, from the view's origin
+  double sample_x_, sample_y_;           // of the sample within its pixel
+  alignas(64) float farthest_[kBlocks];  // every sample of the block is at least this near
 };
 
 void rasterise_depth(const TileTask& task, float* depth) {
