@@ -28,6 +28,13 @@ ClipVertex intersect(const ClipVertex& inside, double d_inside, const ClipVertex
           inside.near_side + t * (outside.near_side - inside.near_side)};
 }
 
+bool is_inside(const ClippedPolygon& polygon, int plane, double guard_band) {
+  for (std::size_t i = 0; i < polygon.count; ++i) {
+    if (!(distance(polygon.vertices[i], plane, guard_band) >= 0)) return false;
+  }
+  return true;
+}
+
 void append(ClippedPolygon& polygon, const ClipVertex& vertex, int corner) {
   polygon.vertices[polygon.count] = vertex;
   polygon.corner[polygon.count] = corner;
@@ -41,6 +48,7 @@ ClippedPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, double g
   ClippedPolygon polygon;
   for (int i = 0; i < 3; ++i) append(polygon, triangle[static_cast<std::size_t>(i)], i);
   for (int plane = 0; plane < 5 && polygon.count >= 3; ++plane) {
+    if (is_inside(polygon, plane, guard_band)) continue;
     ClippedPolygon cut;
     for (std::size_t i = 0; i < polygon.count; ++i) {
       const std::size_t j = i + 1 == polygon.count ? 0 : i + 1;

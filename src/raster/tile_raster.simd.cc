@@ -13,8 +13,8 @@
 #define HWY_TARGET_INCLUDE "raster/tile_raster.simd.cc"
 #include "base/simd.h"
 
-#include <hwy/foreach_target.h>
 #include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>

@@ -137,34 +137,47 @@ void for_each_tile(const BinnedTriangle& t, const RasterView& view, const Rect& 
   }
 }
 
-// Counting sort of the batch's triangles by tile, stable: drawing order is kept within each tile.
-void sort_by_tile(Batch& batch, const RasterView& view, const BinOptions& options) {
-  std::vector<Rect> touched(batch.triangles.size());
-  Rect& all = batch.tiles;
-  all = {1 << 20, 1 << 20, 0, 0};
-  for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
-    const Rect r = tiles_of(batch.triangles[i], view, options.pixels, options.sample_reach);
-    touched[i] = r;
-    all = {std::min(all.x_begin, r.x_begin), std::min(all.y_begin, r.y_begin), std::max(all.x_end, r.x_end),
-           std::max(all.y_end, r.y_end)};
-  }
-  if (batch.triangles.empty()) all = {};
-  const auto tile_index = [&](int x, int y) {
-    return static_cast<std::size_t>((y - all.y_begin) * all.width() + x - all.x_begin);
-  };
-  batch.offsets.assign(static_cast<std::size_t>(all.width() * all.height()) + 1, 0);
-  for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
-    for_each_tile(batch.triangles[i], view, touched[i],
-                  [&](int x, int y) { ++batch.offsets[tile_index(x, y) + 1]; });
-  }
-  for (std::size_t i = 1; i < batch.offsets.size(); ++i) batch.offsets[i] += batch.offsets[i - 1];
-  batch.entries.resize(batch.offsets.back());
-  std::vector<std::uint32_t> next(batch.offsets.begin(), batch.offsets.end() - 1);
-  for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
-    for_each_tile(batch.triangles[i], view, touched[i], [&](int x, int y) {
-      batch.entries[next[tile_index(x, y)]++] = static_cast<std::uint32_t>(i);
+// A triangle in one of the tiles that it touches.
+struct TileEntry {
+  std::uint16_t x, y;
+  std::uint32_t triangle;
+};
+
+// Every tile of every triangle, in drawing order, and their bounds.
+Rect find_tile_entries(const Batch& batch, const RasterView& view, const BinOptions& options,
+                       std::vector<TileEntry>& entries) {
+  entries.clear();
+  if (batch.triangles.empty()) return {};
+  Rect all = {1 << 20, 1 << 20, 0, 0};
+  for (std::uint32_t i = 0; i < batch.triangles.size(); ++i) {
+    const BinnedTriangle& t = batch.triangles[i];
+    const Rect tiles = tiles_of(t, view, options.pixels, options.sample_reach);
+    all = {std::min(all.x_begin, tiles.x_begin), std::min(all.y_begin, tiles.y_begin),
+           std::max(all.x_end, tiles.x_end), std::max(all.y_end, tiles.y_end)};
+    for_each_tile(t, view, tiles, [&](int x, int y) {
+      entries.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), i});
     });
   }
+  return all;
+}
+
+// Counting sort of the batch's triangles by tile, stable: drawing order is kept within each tile. `found`: scratch.
+void sort_by_tile(Batch& batch, const RasterView& view, const BinOptions& options,
+                  std::vector<TileEntry>& found) {
+  batch.tiles = find_tile_entries(batch, view, options, found);
+  const Rect& all = batch.tiles;
+  const auto tile_index = [&](const TileEntry& entry) {
+    return static_cast<std::size_t>((entry.y - all.y_begin) * all.width() + entry.x - all.x_begin);
+  };
+  // Shifted by one place, the counts become where each tile starts, and then, entry by entry, where it ends: which is
+  // where the next one starts.
+  batch.offsets.assign(static_cast<std::size_t>(all.width() * all.height()) + 2, 0);
+  std::uint32_t* next = batch.offsets.data() + 1;
+  for (const TileEntry& entry : found) ++batch.offsets[tile_index(entry) + 2];
+  for (std::size_t i = 2; i < batch.offsets.size(); ++i) batch.offsets[i] += batch.offsets[i - 1];
+  batch.entries.resize(found.size());
+  for (const TileEntry& entry : found) batch.entries[next[tile_index(entry)]++] = entry.triangle;
+  batch.offsets.pop_back();
 }
 
 struct OrderedCluster {
@@ -208,7 +221,8 @@ void TriangleBins::fill(const RasterView& view, const TriangleClusters& geometry
   if (batches_.size() < used_) batches_.resize(used_);
   const SetupView setup(view);
   const SetUpCluster set_up_cluster = set_up_cluster_for(options.instruction_set);
-  pool.for_each(used_, [&](std::size_t index, int) {
+  std::vector<std::vector<TileEntry>> scratch(static_cast<std::size_t>(pool.threads()));
+  pool.for_each(used_, [&](std::size_t index, int worker) {
     Batch& batch = batches_[index];
     batch.triangles.clear();
     batch.planes.clear();
@@ -219,7 +233,7 @@ void TriangleBins::fill(const RasterView& view, const TriangleClusters& geometry
       ++batch.statistics.clusters;
     }
     batch.statistics.triangles_binned = batch.triangles.size();
-    sort_by_tile(batch, view, options);
+    sort_by_tile(batch, view, options, scratch[static_cast<std::size_t>(worker)]);
   });
 }
 

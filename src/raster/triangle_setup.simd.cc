@@ -76,6 +76,8 @@ struct Culling {
   Culling(const Cluster& cluster, CullFaces cull)
       : front(cull == CullFaces::front),
         back(cull == CullFaces::single_sided && (cluster.flags & kDoubleSided) == 0) {}
+  // Twice a triangle's area.
+  [[nodiscard]] bool Drops(std::int64_t area) const { return area == 0 || (area < 0 ? front : back); }
 };
 
 // ---------------------------------------------------------------------------------------------- one by one
@@ -135,11 +137,16 @@ bool TouchesPixels(const Rect& pixels, const RasterView& view, int reach, const 
   return x0 <= x1 && y0 <= y1;
 }
 
+// Twice the area, positive where the corners run clockwise on the screen.
+std::int64_t AreaOf(const SnappedVertex* v) {
+  return std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) -
+         std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
+}
+
 void EmitWide(const SnappedVertex* v, float q_min, float q_max, TriangleId id, std::uint32_t kind,
               std::uint32_t plane, const Culling& culling, Batch& batch) {
-  const std::int64_t area =
-      std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) - std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
-  if (area == 0 || (area < 0 ? culling.front : culling.back)) return;
+  const std::int64_t area = AreaOf(v);
+  if (culling.Drops(area)) return;
   const int b = area > 0 ? 1 : 2;
   const int c = 3 - b;
   BinnedTriangle t{};
@@ -153,42 +160,62 @@ void EmitWide(const SnappedVertex* v, float q_min, float q_max, TriangleId id, s
   batch.triangles.push_back(t);
 }
 
-// Sets up one triangle that the vector path has passed over, or any triangle of a cluster that crosses the near plane
-// or the guard band.
-void SetUpWide(const SetupTask& task, const ScreenVertices& screen, std::uint32_t triangle, Batch& batch) {
+// One triangle's corners in double.
+struct WideCorners {
+  std::array<ClipVertex, 3> clip;
+  std::array<std::uint32_t, 3> local;  // of the cluster's vertices
+  double right_side[3];                // of PlaneThrough()
+};
+
+WideCorners LoadWideCorners(const SetupTask& task, TriangleId id) {
   const RasterView& view = *task.setup->view;
   const TriangleClusters& geometry = *task.geometry;
-  const Cluster& cluster = geometry.clusters[task.cluster];
-  const TriangleId id = task.cluster << kTriangleBits | triangle;
+  const std::uint32_t first_vertex = geometry.clusters[task.cluster].first_vertex;
   const std::uint32_t packed = geometry.corners[id];
-  std::array<ClipVertex, 3> corners;
-  std::array<std::uint32_t, 3> local;
-  double right_side[3];
+  WideCorners corners;
   for (std::uint32_t i = 0; i < 3; ++i) {
-    local[i] = packed >> (8 * i) & 255U;
-    const std::uint32_t v = cluster.first_vertex + local[i];
-    corners[i] = ClipPosition(view, geometry.x_ws[v], geometry.y_ws[v], geometry.z_ws[v]);
-    right_side[i] = view.is_orthographic ? view.reversed_near - corners[i].near_side : 1.0;
+    corners.local[i] = packed >> (8 * i) & 255U;
+    const std::uint32_t v = first_vertex + corners.local[i];
+    corners.clip[i] = ClipPosition(view, geometry.x_ws[v], geometry.y_ws[v], geometry.z_ws[v]);
+    corners.right_side[i] = view.is_orthographic ? view.reversed_near - corners.clip[i].near_side : 1.0;
   }
-  const ClippedPolygon polygon = clip_triangle(corners, kGuardBand);
+  return corners;
+}
+
+// Reversed depths that a clipped or whole triangle spans.
+struct DepthSpan {
+  double low = 0, high = 0;
+};
+DepthSpan SpanOf(const RasterView& view, std::span<const ClipVertex> vertices) {
+  DepthSpan span;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const double q = view.is_orthographic ? view.reversed_near - vertices[i].near_side : 1 / vertices[i].w;
+    span = i == 0 ? DepthSpan{q, q} : DepthSpan{std::min(span.low, q), std::max(span.high, q)};
+  }
+  return span;
+}
+
+// Any triangle of a cluster that crosses the near plane or the guard band.
+void SetUpClipped(const SetupTask& task, const ScreenVertices& screen, std::uint32_t triangle, Batch& batch) {
+  const RasterView& view = *task.setup->view;
+  const Cluster& cluster = task.geometry->clusters[task.cluster];
+  const TriangleId id = task.cluster << kTriangleBits | triangle;
+  const WideCorners corners = LoadWideCorners(task, id);
+  const ClippedPolygon polygon = clip_triangle(corners.clip, kGuardBand);
   if (polygon.count < 3) return;
-  const WidePlane plane = PlaneThrough(corners, right_side);
 
   SnappedVertex snapped[8];
-  double q_min = 0, q_max = 0;
   for (std::size_t i = 0; i < polygon.count; ++i) {
-    const ClipVertex& v = polygon.vertices[i];
-    double q = view.is_orthographic ? view.reversed_near - v.near_side : 1 / v.w;
     if (polygon.corner[i] >= 0) {
       // The neighbours' snapped position, bit for bit.
-      const std::uint32_t corner = local[static_cast<std::size_t>(polygon.corner[i])];
+      const std::uint32_t corner = corners.local[static_cast<std::size_t>(polygon.corner[i])];
       snapped[i] = {Snap(screen.x[corner]), Snap(screen.y[corner])};
     } else {
+      const ClipVertex& v = polygon.vertices[i];
       snapped[i] = {Snap(v.x / v.w), Snap(v.y / v.w)};
     }
-    q_min = i == 0 ? q : std::min(q_min, q);
-    q_max = i == 0 ? q : std::max(q_max, q);
   }
+  const DepthSpan q = SpanOf(view, std::span(polygon.vertices).first(polygon.count));
   const std::uint32_t kind = KindOf(cluster, *task.options);
   const Culling culling(cluster, task.options->cull);
   const auto plane_index = static_cast<std::uint32_t>(batch.planes.size());
@@ -196,10 +223,32 @@ void SetUpWide(const SetupTask& task, const ScreenVertices& screen, std::uint32_
   for (std::size_t i = 1; i + 1 < polygon.count; ++i) {
     const SnappedVertex fan[3] = {snapped[0], snapped[i], snapped[i + 1]};
     if (!TouchesPixels(task.options->pixels, view, task.options->sample_reach, fan)) continue;
-    EmitWide(fan, static_cast<float>(q_min), static_cast<float>(q_max), id, kind, plane_index, culling,
+    EmitWide(fan, static_cast<float>(q.low), static_cast<float>(q.high), id, kind, plane_index, culling,
              batch);
   }
-  if (batch.triangles.size() > before) batch.planes.push_back(plane);
+  if (batch.triangles.size() > before) {
+    batch.planes.push_back(PlaneThrough(corners.clip, corners.right_side));
+  }
+}
+
+// One triangle that the vector path has passed over, in a cluster that needs no clipping: what SetUpClipped() would
+// make of it. That it touches pixels is known.
+void SetUpWide(const SetupTask& task, const ScreenVertices& screen, std::uint32_t triangle, Batch& batch) {
+  const Cluster& cluster = task.geometry->clusters[task.cluster];
+  const TriangleId id = task.cluster << kTriangleBits | triangle;
+  const std::uint32_t packed = task.geometry->corners[id];
+  SnappedVertex snapped[3];
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const std::uint32_t local = packed >> (8 * i) & 255U;
+    snapped[i] = {Snap(screen.x[local]), Snap(screen.y[local])};
+  }
+  const Culling culling(cluster, task.options->cull);
+  if (culling.Drops(AreaOf(snapped))) return;
+  const WideCorners corners = LoadWideCorners(task, id);
+  const DepthSpan q = SpanOf(*task.setup->view, corners.clip);
+  EmitWide(snapped, static_cast<float>(q.low), static_cast<float>(q.high), id, KindOf(cluster, *task.options),
+           static_cast<std::uint32_t>(batch.planes.size()), culling, batch);
+  batch.planes.push_back(PlaneThrough(corners.clip, corners.right_side));
 }
 
 // ---------------------------------------------------------------------------------------------- N at a time
@@ -382,7 +431,7 @@ void set_up_cluster(const SetupTask& task, Batch& batch) {
     SetUpInside(task, screen, batch);
     return;
   }
-  for (std::uint32_t i = 0; i < cluster.triangle_count; ++i) SetUpWide(task, screen, i, batch);
+  for (std::uint32_t i = 0; i < cluster.triangle_count; ++i) SetUpClipped(task, screen, i, batch);
 }
 
 }  // namespace laterna::raster::HWY_NAMESPACE

@@ -21,6 +21,13 @@ std::size_t tile_count(const shadow::DepthMap& map) {
   return static_cast<std::size_t>(map.tiles_x()) * static_cast<std::size_t>(map.tiles_y());
 }
 
+// Every texel is written, so that compilers make vectors of it.
+void mark_empty_texels(float* tile, float reversed_far) {
+  for (int i = 0; i < raster::kTilePixels; ++i) {
+    tile[i] = tile[i] == reversed_far ? shadow::kNothingSeen : tile[i];
+  }
+}
+
 }  // namespace
 
 bool DepthMapKey::operator==(const DepthMapKey& other) const {
@@ -30,9 +37,9 @@ bool DepthMapKey::operator==(const DepthMapKey& other) const {
 }
 
 shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
-                                CasterFaces faces, bool keeps_triangles) {
+                                CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn) {
   shadow::DepthMap map(raster::RasterView(shadow_view.view, shadow_view.width, shadow_view.height),
-                       keeps_triangles);
+                       keeps_triangles, std::move(outworn));
   const raster::RasterView& view = map.view();
   raster::BinOptions options;
   options.cull = faces == CasterFaces::back_only ? raster::CullFaces::front : raster::CullFaces::none;
@@ -61,7 +68,7 @@ shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowV
     } else {
       rasterise_depth(task, tile);
     }
-    std::replace(tile, tile + raster::kTilePixels, view.reversed_far, shadow::kNothingSeen);
+    mark_empty_texels(tile, view.reversed_far);
     context.progress.advance();
   });
   return map;
@@ -80,10 +87,12 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
   entry.maps.clear();
   DepthMaps maps;
   for (const light::ShadowView& view : key.views) {
-    maps.push_back(std::make_shared<const shadow::DepthMap>(
-        draw_depth_map(context, view, key.faces, key.keeps_triangles)));
+    auto lease = outworn_.take();
+    *lease = draw_depth_map(context, view, key.faces, key.keeps_triangles, std::move(*lease));
+    maps.push_back(std::move(lease));
     if (context.progress.is_cancelled()) return {};
   }
+  outworn_.clear();
   entry.key = key;
   entry.maps = std::move(maps);
   return {entry.maps, static_cast<int>(entry.maps.size())};

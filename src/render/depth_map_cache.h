@@ -8,8 +8,8 @@
 
 #include "frame/frame.h"
 #include "light/light_plan.h"
-#include "render/bins_pool.h"
 #include "render/progress_report.h"
+#include "render/reuse_pool.h"
 #include "shadow/depth_map.h"
 
 namespace laterna::render {
@@ -34,9 +34,9 @@ struct DrawContext {
 };
 
 /// One depth map: a pass that touches nothing but positions, and alpha where a material is cut out (row 76). Unfinished
-/// where the caller has asked to stop.
+/// where the caller has asked to stop. `outworn`: see DepthMap.
 shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
-                                CasterFaces faces, bool keeps_triangles);
+                                CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn = {});
 
 class DepthMapCache {
  public:
@@ -54,7 +54,8 @@ class DepthMapCache {
     DepthMapKey key;
     DepthMaps maps;
   };
-  std::mutex mutex_;  // of the list
+  ReusePool<shadow::DepthMap> outworn_;  // outlives the maps
+  std::mutex mutex_;                     // of the list
   std::map<std::size_t, Entry> entries_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "base/aligned_vector.h"
 #include "raster/raster_view.h"
@@ -19,14 +20,21 @@ inline constexpr float kNothingSeen = -std::numeric_limits<float>::max();
 class DepthMap {
  public:
   DepthMap() = default;
-  /// `keeps_triangles`: which triangle each texel saw is kept too.
-  DepthMap(const raster::RasterView& view, bool keeps_triangles)
+  /// `keeps_triangles`: which triangle each texel saw is kept too. `outworn`: a map that nobody needs any more, whose
+  /// memory is taken over.
+  DepthMap(const raster::RasterView& view, bool keeps_triangles, DepthMap outworn)
       : view_(view),
         tiles_x_((view.width + raster::kTileSide - 1) / raster::kTileSide),
         tiles_y_((view.height + raster::kTileSide - 1) / raster::kTileSide),
-        texels_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_) *
-                raster::kTilePixels),
-        triangles_(keeps_triangles ? texels_.size() : 0) {}
+        texels_(std::move(outworn.texels_)),
+        triangles_(std::move(outworn.triangles_)) {
+    const auto count = static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_) *
+                       static_cast<std::size_t>(raster::kTilePixels);
+    resize(texels_, count);
+    resize(triangles_, keeps_triangles ? count : 0);
+  }
+  DepthMap(const raster::RasterView& view, bool keeps_triangles)
+      : DepthMap(view, keeps_triangles, DepthMap()) {}
 
   [[nodiscard]] const raster::RasterView& view() const { return view_; }
   [[nodiscard]] int width() const { return view_.width; }
@@ -59,6 +67,13 @@ class DepthMap {
  private:
   [[nodiscard]] std::size_t tile_start(int x, int y) const {
     return static_cast<std::size_t>(y * tiles_x_ + x) * raster::kTilePixels;
+  }
+
+  // Contents are not kept, and no more memory than is needed.
+  template <class T>
+  static void resize(AlignedVector<T>& values, std::size_t count) {
+    if (values.capacity() != count) values = AlignedVector<T>();
+    values.resize(count);
   }
 
   raster::RasterView view_;
