@@ -37,13 +37,22 @@ float texture_alpha(const TextureBinding& binding, float u, float v) {
     x.weight = x.weight >= 0.5F ? 1.0F : 0.0F;
     y.weight = y.weight >= 0.5F ? 1.0F : 0.0F;
   }
-  const auto at = [&](int i, int j) { return image::texel(chain, 0, i, j)[3]; };
+  const auto at = [&](int i, int j) {
+    const auto index =
+        static_cast<std::size_t>(j) * static_cast<std::size_t>(chain.width()) + static_cast<std::size_t>(i);
+    return static_cast<float>(chain.format == image::TexelFormat::data ? chain.texels[index] >> 24U
+                                                                       : chain.alpha[index]);
+  };
   const float above = at(x.low, y.low) + (at(x.high, y.low) - at(x.low, y.low)) * x.weight;
   const float below = at(x.low, y.high) + (at(x.high, y.high) - at(x.low, y.high)) * x.weight;
-  return above + (below - above) * y.weight;
+  return (above + (below - above) * y.weight) * (1.0F / 255.0F);
 }
 
 }  // namespace
+
+float cutoff_of(const Surface& surface) {
+  return surface.alpha_mode == AlphaMode::mask ? surface.alpha_cutoff : 0.5F;
+}
 
 float alpha_at(const Frame& frame, TriangleId id, float b, float c) {
   const std::uint32_t cluster = cluster_of(id);
@@ -55,10 +64,10 @@ float alpha_at(const Frame& frame, TriangleId id, float b, float c) {
     return at_a + ((values[first + (packed >> 8U & 255U)] - at_a) * b +
                    (values[first + (packed >> 16U & 255U)] - at_a) * c);
   };
-  float alpha = surface.base_color[3];
-  if (streams.color != kNoStream) alpha *= interpolate(frame.color_a, streams.color);
+  const float factor = surface.base_color[3];
+  const float vertex_alpha = streams.color == kNoStream ? 1 : interpolate(frame.color_a, streams.color);
   const TextureBinding& binding = surface.base_color_texture;
-  if (binding.chain == nullptr) return alpha;
+  if (binding.chain == nullptr) return factor * vertex_alpha;
   const auto set = static_cast<std::size_t>(binding.uv_set);
   float u = 0;
   float v = 0;
@@ -69,7 +78,7 @@ float alpha_at(const Frame& frame, TriangleId id, float b, float c) {
     u = m[0] * mesh_u + m[1] * mesh_v + m[2];
     v = m[3] * mesh_u + m[4] * mesh_v + m[5];
   }
-  return alpha * texture_alpha(binding, u, v);
+  return factor * texture_alpha(binding, u, v) * vertex_alpha;
 }
 
 }  // namespace laterna::frame

@@ -66,6 +66,13 @@ HWY_INLINE Taps FindTaps(FloatVector coordinate, IntVector size, Wrap wrap) {
   return taps;
 }
 
+// The nearer of the two neighbours instead of both, where wanted.
+HWY_INLINE void TakeNearest(Taps& taps, FloatMask is_nearest) {
+  const auto second = hn::And(is_nearest, taps.weight >= Splat(0.5F));
+  taps.low = hn::IfThenElse(hn::RebindMask(IntTag(), second), taps.high, taps.low);
+  taps.weight = hn::IfThenZeroElse(is_nearest, taps.weight);
+}
+
 // Texels not yet scaled to [0, 1]: the scale is applied once, after filtering.
 template <TexelFormat kFormat, bool kAlpha>
 struct TexelReader {
@@ -237,12 +244,6 @@ class Lookup {
     return reader_.Scaled(Lerp(above, below, y.weight));
   }
 
-  static HWY_INLINE void TakeNearest(Taps& taps, FloatMask is_nearest) {
-    const auto second = hn::And(is_nearest, taps.weight >= Splat(0.5F));
-    taps.low = hn::IfThenElse(hn::RebindMask(IntTag(), second), taps.high, taps.low);
-    taps.weight = hn::IfThenZeroElse(is_nearest, taps.weight);
-  }
-
   TexelReader<kFormat, kAlpha> reader_;
   const MipChain& chain_;
   const Sampler& sampler_;
@@ -263,6 +264,40 @@ HWY_NOINLINE Texel4 LookUp(const MipChain& chain, const Sampler& sampler, int an
       break;
   }
   return Lookup<TexelFormat::wide, kAlpha>(chain, sampler, anisotropy).Filtered(footprint);
+}
+
+// Alpha alone, of the full-size picture, filtered as where it is magnified: what LookUp<true> gives for a footprint of
+// no size.
+HWY_INLINE FloatVector LookUpFullSizeAlpha(const MipChain& chain, const Sampler& sampler, FloatVector u,
+                                           FloatVector v) {
+  const FloatTag d;
+  const IntTag di;
+  if (chain.format == TexelFormat::data) {
+    const auto zero = Splat(0.0F);
+    return LookUp<true>(chain, sampler, 1, {u, v, zero, zero, zero, zero}).a;
+  }
+  if (chain.alpha.empty()) return Splat(1.0F);
+  Taps x = FindTaps(u, SplatInt(chain.width()), sampler.wrap_u);
+  Taps y = FindTaps(v, SplatInt(chain.height()), sampler.wrap_v);
+  if (sampler.magnify == Filter::nearest) {
+    const auto all = hn::MaskFromVec(hn::BitCast(d, SplatInt(-1)));
+    TakeNearest(x, all);
+    TakeNearest(y, all);
+  }
+  const auto* bytes = reinterpret_cast<const std::int32_t*>(chain.alpha.data());
+  const auto number = [&](IntVector word) HWY_ATTR { return hn::ConvertTo(d, hn::And(word, SplatInt(255))); };
+  const auto are_neighbours = hn::AllTrue(di, x.high == x.low + SplatInt(1));
+  const auto row = [&](IntVector first) HWY_ATTR {
+    // Three more bytes than texels can be read: the word that starts with a texel holds its right neighbour, too.
+    const auto word = hn::GatherOffset(di, bytes, first + x.low);
+    const auto left = number(word);
+    const auto right = are_neighbours ? number(hn::ShiftRight<8>(word))
+                                      : number(hn::GatherOffset(di, bytes, first + x.high));
+    return left + (right - left) * x.weight;
+  };
+  const auto width = SplatInt(chain.width());
+  const auto above = row(y.low * width), below = row(y.high * width);
+  return (above + (below - above) * y.weight) * Splat(1.0F / 255.0F);
 }
 
 }  // namespace laterna::image::HWY_NAMESPACE

@@ -24,7 +24,4 @@ class SurfaceCut final : public raster::AlphaCut {
   KeepAboveCutoff keep_above_cutoff_;
 };
 
-/// The alpha below which a surface is a hole.
-float cutoff_of(const frame::Surface& surface);
-
 }  // namespace laterna::shade

@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "base/vectors-inl.h"
-#include "frame/surface_alpha.h"
+#include "frame/surface_alpha-inl.h"
 #include "frame/triangle_corners-inl.h"
 #include "shadow/depth_comparison-inl.h"
 #include "shadow/depth_comparison.h"
@@ -320,7 +320,6 @@ struct Blocking {
 // Möller and Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
 HWY_INLINE Blocking TestTriangles(const ShadowMapTest& test, const BoundDepthMap& bound, const Vector3& point,
                                   IntVector ids, FloatMask wanted, FloatVector near) {
-  const FloatTag d;
   const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*test.frame, ids);
   const auto at = corners.Positions();
   const auto zero = Splat(0.0F), one = Splat(1.0F);
@@ -354,30 +353,9 @@ HWY_INLINE Blocking TestTriangles(const ShadowMapTest& test, const BoundDepthMap
   if (!bound.is_orthographic) texel_area = texel_area * length_squared * hn::Sqrt(length_squared);
   blocking.is_small = hn::Abs(determinant) < Splat(2 * kSmallTexels) * texel_area;
 
-  // Holes of cut-outs.
-  const auto flags =
-      hn::GatherIndex(IntTag(), reinterpret_cast<const std::int32_t*>(test.frame->clusters.data()),
-                      corners.Clusters() * SplatInt(sizeof(Cluster) / sizeof(std::int32_t)) +
-                          SplatInt(offsetof(Cluster, flags) / sizeof(std::int32_t)));
-  const auto is_cut = hn::RebindMask(
-      d, hn::And(flags, SplatInt(static_cast<std::int32_t>(kAlphaMask | kAlphaBlend))) != hn::Zero(IntTag()));
-  if (!hn::AllFalse(d, hn::And(is_cut, blocking.blocks))) {
-    alignas(64) std::int32_t id[kLanes];
-    alignas(64) float b[kLanes], c[kLanes], kept[kLanes];
-    hn::Store(ids, IntTag(), id);
-    hn::Store(u, d, b);
-    hn::Store(v, d, c);
-    hn::Store(hn::IfThenElseZero(hn::And(is_cut, blocking.blocks), one), d, kept);
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      if (kept[i] == 0) continue;
-      const auto triangle = static_cast<TriangleId>(id[i]);
-      const frame::Surface& surface =
-          test.frame->surfaces[test.frame->clusters[cluster_of(triangle)].material];
-      const float cutoff = surface.alpha_mode == AlphaMode::mask ? surface.alpha_cutoff : 0.5F;
-      kept[i] = frame::alpha_at(*test.frame, triangle, b[i], c[i]) < cutoff ? 1.0F : 0.0F;
-    }
-    blocking.blocks = hn::AndNot(hn::Load(d, kept) > zero, blocking.blocks);
-  }
+  const frame::HWY_NAMESPACE::Weights weights = {u, v, zero, zero, zero, zero};
+  const auto holes = frame::HWY_NAMESPACE::FindHoles(*test.frame, corners, weights, blocking.blocks);
+  blocking.blocks = hn::AndNot(holes, blocking.blocks);
   return blocking;
 }
 

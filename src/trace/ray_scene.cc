@@ -17,10 +17,6 @@ struct Context {
   TriangleId own;
 };
 
-float cutoff_of(const frame::Surface& surface) {
-  return surface.alpha_mode == AlphaMode::mask ? surface.alpha_cutoff : 0.5F;
-}
-
 }  // namespace
 
 struct RayScene::Implementation {
@@ -86,7 +82,7 @@ struct RayScene::Implementation {
   [[nodiscard]] bool is_hole(TriangleId id, float b, float c) const {
     const Cluster& cluster = frame.clusters[cluster_of(id)];
     if ((cluster.flags & (kAlphaMask | kAlphaBlend)) == 0) return false;
-    return frame::alpha_at(frame, id, b, c) < cutoff_of(frame.surfaces[cluster.material]);
+    return frame::alpha_at(frame, id, b, c) < frame::cutoff_of(frame.surfaces[cluster.material]);
   }
 
   const frame::Frame& frame;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "frame/frame.h"
 #include "image/mip_chain.h"
 #include "laterna/instruction_set.h"
 #include "laterna/sampler.h"
@@ -54,5 +55,15 @@ struct TextureProbes {
 };
 using LookUpTexture = void (*)(const TextureProbes& probes);
 LookUpTexture look_up_texture_for(InstructionSet set);
+
+/// is_hole[i]: 1 where the point of triangle ids[i] with weights b[i] and c[i] is a hole, otherwise 0.
+struct SurfaceProbes {
+  const frame::Frame* frame;
+  std::span<const TriangleId> ids;
+  Numbers b, c;
+  Results is_hole;
+};
+using FindHoles = void (*)(const SurfaceProbes& probes);
+FindHoles find_holes_for(InstructionSet set);
 
 }  // namespace laterna::kernels

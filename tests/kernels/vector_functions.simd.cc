@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include "base/vectors-inl.h"
+#include "frame/surface_alpha-inl.h"
 #include "image/texture_lookup-inl.h"
 #include "kernels/vector_functions.h"
 #include "shadow/depth_comparison-inl.h"
@@ -78,6 +79,16 @@ void look_up_texture(const TextureProbes& p) {
   }
 }
 
+void find_holes(const SurfaceProbes& p) {
+  const auto zero = Splat(0.0F);
+  for (std::size_t i = 0; i < p.b.size(); i += kLanes) {
+    const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*p.frame, p.ids.data() + i);
+    const frame::HWY_NAMESPACE::Weights weights = {At(p.b, i), At(p.c, i), zero, zero, zero, zero};
+    const auto holes = frame::HWY_NAMESPACE::FindHoles(*p.frame, corners, weights, zero == zero);
+    hn::Store(hn::IfThenElseZero(holes, Splat(1.0F)), FloatTag(), p.is_hole.data() + i);
+  }
+}
+
 }  // namespace laterna::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -91,5 +102,6 @@ LATERNA_KERNEL_TABLE(normalise)
 LATERNA_KERNEL_TABLE(compare_depths)
 LATERNA_KERNEL_TABLE(evaluate_row)
 LATERNA_KERNEL_TABLE(look_up_texture)
+LATERNA_KERNEL_TABLE(find_holes)
 }  // namespace laterna::kernels
 #endif
