@@ -1,0 +1,280 @@
+// Samples as a depth map sees them, its texels around them, and the plain filters.
+#if defined(LATERNA_SHADOW_MAP_READER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LATERNA_SHADOW_MAP_READER_INL_H_
+#undef LATERNA_SHADOW_MAP_READER_INL_H_
+#else
+#define LATERNA_SHADOW_MAP_READER_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "base/vectors-inl.h"
+#include "shadow/depth_comparison-inl.h"
+#include "shadow/projected_view-inl.h"
+#include "shadow/shadow_map.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace laterna::shadow::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
+
+// N samples.
+struct Points {
+  FloatVector x, y, q;
+  Vector3 position_ws, normal_ws;
+};
+
+// Samples as one depth map sees them.
+struct Receiver {
+  FloatVector x, y;        // texels from the map's top-left corner
+  FloatVector q;           // reversed depth
+  FloatVector q_dx, q_dy;  // along the receiver's plane, per texel; 0 without a receiver plane
+  FloatVector rounding;    // in reversed depth: what arithmetic may have lost
+  FloatVector texel;       // the footprint of a texel, as reversed depth
+  FloatMask faces_light;   // the side of the surface that is seen is the one the light falls on
+  FloatMask is_seen;       // in front of the light and nearer than far
+};
+
+// Where texel column or row i of a map starts, in DepthMap's layout; the two parts of an index are added.
+HWY_INLINE IntVector ColumnPart(IntVector i) {
+  return hn::ShiftLeft<2 * raster::kTileBits>(hn::ShiftRight<raster::kTileBits>(i)) +
+         hn::ShiftLeft<4>(hn::And(hn::ShiftRight<2>(i), SplatInt(raster::kBlocksPerSide - 1))) +
+         hn::And(i, SplatInt(raster::kBlockSide - 1));
+}
+HWY_INLINE IntVector RowPart(IntVector j, std::int32_t tiles_x) {
+  return hn::ShiftRight<raster::kTileBits>(j) * SplatInt(tiles_x * raster::kTilePixels) +
+         hn::ShiftLeft<8>(hn::And(hn::ShiftRight<2>(j), SplatInt(raster::kBlocksPerSide - 1))) +
+         hn::ShiftLeft<2>(hn::And(j, SplatInt(raster::kBlockSide - 1)));
+}
+
+// The four texels around a sample.
+struct Quad {
+  IntVector column[2], row[2];  // parts of the texels' indices
+  FloatMask column_in[2], row_in[2];
+  FloatVector dx[2], dy[2];        // from the sample to the texels' centres
+  FloatVector weight_x, weight_y;  // of the second column and row
+};
+
+// What single precision may lose of a depth, stored and tested together, as a share of it: a little over four times
+// 2⁻²³. 1 cm at 9 km is more (row 24).
+constexpr float kDepthRounding = 5e-7F;
+
+class MapReader {
+ public:
+  MapReader(const ShadowMapTest& test, const BoundDepthMap& bound, float position_error)
+      : test_(test), bound_(bound), map_(*bound.map), position_error_(position_error) {}
+
+  HWY_INLINE Receiver Find(const Points& p) const {
+    const auto X = Evaluate(bound_.position.x, p.x, p.y, p.q), Y = Evaluate(bound_.position.y, p.x, p.y, p.q);
+    const auto W = Evaluate(bound_.position.divisor, p.x, p.y, p.q),
+               h = Evaluate(bound_.homogeneous, p.x, p.y, p.q);
+    const raster::RasterView& view = map_.view();
+    const auto origin_x = Splat(static_cast<float>(view.origin_x)),
+               origin_y = Splat(static_cast<float>(view.origin_y));
+    const auto error = Splat(position_error_);
+    const auto far = Splat(view.reversed_far);
+    Receiver r;
+    FloatVector plane_divisor;
+    if (bound_.is_orthographic) {
+      const auto inverse = Splat(1.0F) / h;
+      r.x = X * inverse + origin_x;
+      r.y = Y * inverse + origin_y;
+      r.q = W * inverse;
+      r.is_seen = r.q >= far;
+      // Points of the plane: direction(x, y) + q axis, so n·direction + q n·axis is constant.
+      plane_divisor = hn::Neg(Dot(p.normal_ws, Splat3(bound_.axis_ws)));
+      r.texel = Splat(bound_.texel_size);
+      r.rounding = error;
+    } else {
+      // Nothing behind the light is seen by it (row 58). The smallest divisor still has a finite inverse.
+      const auto is_ahead = W > h * Splat(1e-6F);
+      const auto inverse = Splat(1.0F) / hn::IfThenElse(is_ahead, W, h);
+      r.x = X * inverse + origin_x;
+      r.y = Y * inverse + origin_y;
+      r.q = h * inverse;
+      r.is_seen = hn::And(is_ahead, r.q >= far);
+      plane_divisor = Dot(p.normal_ws, p.position_ws - Splat3(bound_.eye_ws));
+      // t metres at reversed depth q are t q² of reversed depth; a texel is texel_size / q metres wide.
+      r.texel = Splat(bound_.texel_size) * r.q;
+      r.rounding = error * r.q * r.q;
+    }
+    r.rounding = r.rounding + Splat(kDepthRounding) * hn::Abs(r.q);
+    r.faces_light = plane_divisor < Splat(0.0F);
+    // A plane seen edge-on has no slope to speak of; its lit and dark sides meet in one texel.
+    const auto is_edge_on = hn::Abs(plane_divisor) <= Splat(1e-9F);
+    const auto inverse_divisor = Splat(1.0F) / hn::IfThenElse(is_edge_on, Splat(1.0F), plane_divisor);
+    r.q_dx =
+        hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, Splat3(bound_.direction_x_ws)) * inverse_divisor);
+    r.q_dy =
+        hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, Splat3(bound_.direction_y_ws)) * inverse_divisor);
+    return r;
+  }
+
+  // α of plain filters.
+  HWY_INLINE FloatVector Arrival(Receiver r) const {
+    // Back sides are in the shadow of their own front, if of anything: there is no self-shadowing to prevent.
+    const ShadowBias& b = test_.bias;
+    const auto slope = hn::Abs(r.q_dx) + hn::Abs(r.q_dy);
+    const auto metres = Splat(b.metres) * (bound_.is_orthographic ? Splat(1.0F) : r.q * r.q);
+    const auto bias = r.rounding + metres +
+                      hn::IfThenElseZero(r.faces_light, Splat(b.texels) * r.texel + Splat(b.slope) * slope);
+    if (!b.uses_receiver_plane) r.q_dx = r.q_dy = Splat(0.0F);
+    FloatVector lit;
+    switch (test_.filter) {
+      case ShadowFilter::nearest:
+        lit = PercentageCloser(r, bias, 1);
+        break;
+      case ShadowFilter::percentage_closer:
+        lit = PercentageCloser(r, bias, test_.kernel);
+        break;
+      default:
+        lit = Bilinear(r, bias);
+        break;
+    }
+    return hn::IfThenElse(r.is_seen, lit, Outside());
+  }
+
+  HWY_INLINE Quad FindQuad(const Receiver& r) const {
+    const FloatTag d;
+    const IntTag di;
+    const auto x = Held(r.x - Splat(0.5F)), y = Held(r.y - Splat(0.5F));
+    const auto floor_x = hn::Floor(x), floor_y = hn::Floor(y);
+    const auto i = hn::ConvertTo(di, floor_x), j = hn::ConvertTo(di, floor_y);
+    const auto zero = hn::Zero(di), one = SplatInt(1);
+    const auto last_i = SplatInt(map_.width() - 1), last_j = SplatInt(map_.height() - 1);
+    Quad quad;
+    quad.weight_x = x - floor_x;
+    quad.weight_y = y - floor_y;
+    for (int k = 0; k < 2; ++k) {
+      const auto column = k == 0 ? i : i + one, row = k == 0 ? j : j + one;
+      const auto held_column = hn::Min(hn::Max(column, zero), last_i),
+                 held_row = hn::Min(hn::Max(row, zero), last_j);
+      quad.column[k] = ColumnPart(held_column);
+      quad.row[k] = RowPart(held_row, map_.tiles_x());
+      quad.column_in[k] = hn::RebindMask(d, held_column == column);
+      quad.row_in[k] = hn::RebindMask(d, held_row == row);
+      quad.dx[k] = Splat(static_cast<float>(k)) - quad.weight_x;
+      quad.dy[k] = Splat(static_cast<float>(k)) - quad.weight_y;
+    }
+    return quad;
+  }
+
+  // A texel's two sides of the comparison: the surface that the light saw there, and the receiver's plane.
+  struct Depths {
+    FloatVector stored, tested;
+  };
+  // (dx, dy): from the sample to the texel's centre.
+  HWY_INLINE Depths DepthsAt(const Receiver& r, IntVector index, FloatVector dx, FloatVector dy) const {
+    return {hn::GatherIndex(FloatTag(), map_.texels(), index), r.q + (r.q_dx * dx + r.q_dy * dy)};
+  }
+
+  [[nodiscard]] HWY_INLINE FloatVector Outside() const { return Splat(test_.outside_is_lit ? 1.0F : 0.0F); }
+  // Where the map has anything to say. What lies outside is lit texel by texel unless told otherwise.
+  [[nodiscard]] HWY_INLINE FloatMask Covers(const Receiver& r) const {
+    if (test_.outside_is_lit) return r.is_seen;
+    const auto zero = Splat(0.0F);
+    const auto width = Splat(static_cast<float>(map_.width())),
+               height = Splat(static_cast<float>(map_.height()));
+    const auto is_inside = hn::And(hn::And(r.x >= zero, r.x <= width), hn::And(r.y >= zero, r.y <= height));
+    return hn::And(r.is_seen, is_inside);
+  }
+  [[nodiscard]] const BoundDepthMap& bound() const { return bound_; }
+  [[nodiscard]] const DepthMap& map() const { return map_; }
+
+ private:
+  // 1 where texel (i, j), whose centre lies (dx, dy) texels from the sample, holds nothing nearer than the receiver's
+  // plane has there.
+  HWY_INLINE FloatVector Tap(const Receiver& r, FloatVector bias, IntVector i, IntVector j, FloatVector dx,
+                             FloatVector dy) const {
+    const FloatTag d;
+    const auto zero = hn::Zero(IntTag());
+    const auto last_i = SplatInt(map_.width() - 1), last_j = SplatInt(map_.height() - 1);
+    const auto held_i = hn::Min(hn::Max(i, zero), last_i), held_j = hn::Min(hn::Max(j, zero), last_j);
+    const auto is_inside = hn::RebindMask(d, hn::And(held_i == i, held_j == j));
+    const Depths depths = DepthsAt(r, ColumnPart(held_i) + RowPart(held_j, map_.tiles_x()), dx, dy);
+    const auto is_lit = IsLit(depths.stored, depths.tested, bias);
+    return hn::IfThenElse(is_inside, hn::IfThenElseZero(is_lit, Splat(1.0F)), Outside());
+  }
+
+  // Texel coordinates far outside would not fit an int.
+  HWY_INLINE FloatVector Held(FloatVector v) const {
+    return hn::Min(hn::Max(v, Splat(-65536.0F)), Splat(65536.0F));
+  }
+
+  HWY_INLINE FloatVector Bilinear(const Receiver& r, FloatVector bias) const {
+    const Quad quad = FindQuad(r);
+    FloatVector rows[2];
+    for (int j = 0; j < 2; ++j) {
+      FloatVector lit[2];
+      for (int i = 0; i < 2; ++i) {
+        const Depths depths = DepthsAt(r, quad.column[i] + quad.row[j], quad.dx[i], quad.dy[j]);
+        const auto is_lit = IsLit(depths.stored, depths.tested, bias);
+        const auto is_inside = hn::And(quad.column_in[i], quad.row_in[j]);
+        lit[i] = hn::IfThenElse(is_inside, hn::IfThenElseZero(is_lit, Splat(1.0F)), Outside());
+      }
+      rows[j] = lit[0] + (lit[1] - lit[0]) * quad.weight_x;
+    }
+    return rows[0] + (rows[1] - rows[0]) * quad.weight_y;
+  }
+
+  // kernel × kernel nearest texels, all of one weight: α is a multiple of 1/kernel² (row 27).
+  HWY_INLINE FloatVector PercentageCloser(const Receiver& r, FloatVector bias, int kernel) const {
+    const FloatTag d;
+    const IntTag di;
+    const auto reach = Splat(0.5F * static_cast<float>(kernel - 1));
+    // First texel of the square whose centre is nearest to the sample.
+    const auto floor_x = hn::Floor(Held(r.x - reach)), floor_y = hn::Floor(Held(r.y - reach));
+    const auto i = hn::ConvertTo(di, floor_x), j = hn::ConvertTo(di, floor_y);
+    const auto dx = floor_x + Splat(0.5F) - r.x, dy = floor_y + Splat(0.5F) - r.y;
+    auto sum = hn::Zero(d);
+    for (int row = 0; row < kernel; ++row) {
+      for (int column = 0; column < kernel; ++column) {
+        sum = sum + Tap(r, bias, i + SplatInt(column), j + SplatInt(row),
+                        dx + Splat(static_cast<float>(column)), dy + Splat(static_cast<float>(row)));
+      }
+    }
+    return sum / Splat(static_cast<float>(kernel * kernel));
+  }
+
+  const ShadowMapTest& test_;
+  const BoundDepthMap& bound_;
+  const DepthMap& map_;
+  float position_error_;
+};
+
+// Which map each point asks: the face of the cube through which the ray from the light leaves it.
+template <class Visit>
+HWY_INLINE void ForEachMap(const ShadowMapTest& test, const Vector3& position, Visit visit) {
+  const FloatTag d;
+  if (test.maps.size() == 1) {
+    visit(test.maps[0], Splat(0.0F) == Splat(0.0F));
+    return;
+  }
+  const Vector3 p = position - Splat3(test.maps[0].eye_ws);
+  const auto ax = hn::Abs(p.x), ay = hn::Abs(p.y), az = hn::Abs(p.z);
+  const auto is_x = hn::And(ax >= ay, ax >= az);
+  const auto is_y = hn::AndNot(is_x, ay >= az);
+  const FloatMask axes[3] = {is_x, is_y, hn::Not(hn::Or(is_x, is_y))};
+  const FloatVector components[3] = {p.x, p.y, p.z};
+  for (std::size_t face = 0; face < 6; ++face) {
+    const auto component = components[face / 2];
+    const auto side = face % 2 == 0 ? component >= Splat(0.0F) : component < Splat(0.0F);
+    const auto here = hn::And(axes[face / 2], side);
+    if (!hn::AllFalse(d, here)) visit(test.maps[face], here);
+  }
+}
+
+HWY_INLINE Points LoadPoints(const SurfaceSamples& s, std::size_t i) {
+  const FloatTag d;
+  return {hn::Load(d, s.x.data() + i),
+          hn::Load(d, s.y.data() + i),
+          hn::Load(d, s.q.data() + i),
+          {hn::Load(d, s.x_ws.data() + i), hn::Load(d, s.y_ws.data() + i), hn::Load(d, s.z_ws.data() + i)},
+          {hn::Load(d, s.normal_x_ws.data() + i), hn::Load(d, s.normal_y_ws.data() + i),
+           hn::Load(d, s.normal_z_ws.data() + i)}};
+}
+
+}  // namespace laterna::shadow::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
