@@ -29,6 +29,18 @@ constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
 HWY_INLINE FloatVector Splat(float value) { return hn::Set(FloatTag(), value); }
 HWY_INLINE IntVector SplatInt(std::int32_t value) { return hn::Set(IntTag(), value); }
 
+// A mask as bits, lane 0 the lowest, and back.
+HWY_INLINE std::uint32_t BitsOf(FloatMask mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(FloatTag(), mask, bytes);
+  return bytes[0] | std::uint32_t{bytes[1]} << 8U;
+}
+HWY_INLINE FloatMask MaskFromBits(std::uint32_t bits) {
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits & 255U),
+                                 static_cast<std::uint8_t>(bits >> 8U & 255U)};
+  return hn::LoadMaskBits(FloatTag(), bytes);
+}
+
 // Three components of N points or directions.
 struct Vector3 {
   FloatVector x, y, z;

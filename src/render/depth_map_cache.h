@@ -8,13 +8,12 @@
 
 #include "frame/frame.h"
 #include "light/light_plan.h"
-#include "render/progress_report.h"
 #include "render/reuse_pool.h"
 #include "shadow/depth_map.h"
 
 namespace laterna::render {
 
-using DepthMaps = std::vector<std::shared_ptr<const shadow::DepthMap>>;
+using DepthMaps = std::vector<std::shared_ptr<shadow::DepthMap>>;
 
 /// What a depth map shows is given by its view, its size, how it is drawn, and the casters.
 struct DepthMapKey {
@@ -25,28 +24,32 @@ struct DepthMapKey {
   bool operator==(const DepthMapKey& other) const;
 };
 
+/// What drawing depth maps needs. All but the pool stays while a map lives.
 struct DrawContext {
   const frame::Frame& frame;
   const TaskPool& pool;
   BinsPool& bins;
   InstructionSet instruction_set;
-  ProgressReport& progress;  // told of every tile; asked whether to stop
 };
 
-/// One depth map: a pass that touches nothing but positions, and alpha where a material is cut out (row 76). Unfinished
-/// where the caller has asked to stop. `outworn`: see DepthMap.
-shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
+/// A depth map whose tiles are drawn as they are asked for. `outworn`: see DepthMap.
+shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
                                 CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn = {});
+/// The same, with every tile drawn.
+shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
+                                CasterFaces faces, bool keeps_triangles);
 
 class DepthMapCache {
  public:
   struct Found {
     DepthMaps maps;
-    int drawn = 0;  // 0: all were kept
+    int made = 0;  // 0: all were kept
   };
-  /// The maps of light `light`, drawn if those kept are of something else. Callers that ask for the same light at the
-  /// same time wait. `anew`: drawn in any case. No maps where the caller has asked to stop.
+  /// The maps of light `light`, made anew if those kept are of something else. Callers that ask for the same light at
+  /// the same time wait. `anew`: in any case.
   Found find(std::size_t light, const DepthMapKey& key, const DrawContext& context, bool anew);
+  /// Frees what only drawing needs, when nobody draws.
+  void rest();
 
  private:
   struct Entry {

@@ -10,10 +10,16 @@ namespace laterna::render {
 
 class ProgressReport {
  public:
-  /// `steps`: tiles to be drawn, of shadow maps and of the picture.
+  /// `steps`: tiles to be drawn.
   ProgressReport(const Progress& progress, std::size_t steps) : progress_(progress), steps_(steps) {}
 
   [[nodiscard]] bool is_cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+
+  /// Asks the caller, between two steps.
+  bool asks_to_stop() {
+    advance(0);
+    return is_cancelled();
+  }
 
   void advance(std::size_t steps = 1) {
     done_.fetch_add(steps);

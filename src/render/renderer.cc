@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -41,18 +42,6 @@ int band_count(const frame::Frame& frame, int tile_rows) {
 }
 
 int tiles_across(int pixels) { return (pixels + raster::kTileSide - 1) / raster::kTileSide; }
-
-// Tiles of the picture and of its shadow maps.
-std::size_t tile_count(const RenderSettings& settings, const light::LightPlan& plan) {
-  const auto area = [](int width, int height) {
-    return static_cast<std::size_t>(tiles_across(width)) * static_cast<std::size_t>(tiles_across(height));
-  };
-  std::size_t count = area(settings.width, settings.height);
-  for (const light::PlannedLight& planned : plan.lights) {
-    for (const light::ShadowView& shadow : planned.shadow_views) count += area(shadow.width, shadow.height);
-  }
-  return count;
-}
 
 // The door of every call that may need much memory.
 template <class Work>
@@ -121,15 +110,15 @@ struct Renderer::Implementation {
     const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
                                      planned.settings.filter == ShadowFilter::refined, casters_revision};
     const render::DepthMapCache::Found found =
-        maps.find(index, key, {frame, pool, bins, set, progress}, !settings.keep_shadow_maps);
-    if (found.maps.empty()) return nullptr;  // cancelled
-    statistics.maps_drawn += found.drawn;
-    statistics.maps_kept += static_cast<int>(found.maps.size()) - found.drawn;
+        maps.find(index, key, {frame, pool, bins, set}, !settings.keep_shadow_maps);
+    statistics.maps_drawn += found.made;
+    statistics.maps_kept += static_cast<int>(found.maps.size()) - found.made;
     RenderStatistics::LightMemory memory = {planned.placed->light->name, static_cast<int>(found.maps.size()),
                                             0};
     for (const auto& map : found.maps) memory.bytes += map->memory_bytes();
     statistics.shadow_memory.push_back(memory);
-    return std::make_unique<shadow::ShadowMap>(planned, found.maps, frame, ray, settings.samples, set);
+    return std::make_unique<shadow::ShadowMap>(planned, found.maps, frame, ray, settings.samples, set,
+                                               [&progress] { return progress.asks_to_stop(); });
   }
 
   // Everything the tiles share, with every shadow technique ready to answer.
@@ -175,6 +164,20 @@ struct Renderer::Implementation {
                                                    const Progress& progress,
                                                    RenderStatistics* statistics) const;
 
+  // While a picture is drawn. The last one out lets the shadow maps rest.
+  class Drawing {
+   public:
+    explicit Drawing(const Implementation& of) : of_(of) { ++of_.pictures_drawn_now; }
+    ~Drawing() {
+      if (--of_.pictures_drawn_now == 0) of_.maps.rest();
+    }
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+   private:
+    const Implementation& of_;
+  };
+
   Scene scene;
   TaskPool pool;
   InstructionSet set;
@@ -184,6 +187,7 @@ struct Renderer::Implementation {
   std::uint64_t casters_revision = 0;
   mutable BinsPool bins;
   mutable render::DepthMapCache maps;
+  mutable std::atomic<int> pictures_drawn_now = 0;
   mutable std::mutex rays_mutex;
   mutable std::shared_ptr<const trace::RayScene> rays;
 };
@@ -272,10 +276,12 @@ Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const 
   Result<render::PictureWriter> writer = render::PictureWriter::create(settings, target, frame);
   if (!writer) return tl::unexpected(std::move(writer.error()));
 
+  const Drawing drawing(*this);
   RenderStatistics statistics;
   const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows});
   statistics.plan_ms = milliseconds_since(start);
-  ProgressReport report(progress, tile_count(settings, plan));
+  ProgressReport report(progress, static_cast<std::size_t>(tiles_across(settings.width)) *
+                                      static_cast<std::size_t>(tiles_across(settings.height)));
 
   const raster::RasterView view(from, settings.width, settings.height);
   const Clock::time_point shadow_start = Clock::now();
@@ -434,9 +440,7 @@ Result<LayeredImage> Renderer::depth_map(const std::string& light, int face) con
   const Result<light::PlannedLight> planned = self.planned_face(light, face);
   if (!planned) return tl::unexpected(planned.error());
   return guarded([&]() -> Result<LayeredImage> {
-    const Progress nobody_asks;
-    ProgressReport progress(nobody_asks, 1);
-    return metres_of(render::draw_depth_map({self.frame, self.pool, self.bins, self.set, progress},
+    return metres_of(render::draw_depth_map({self.frame, self.pool, self.bins, self.set},
                                             planned->shadow_views[0], planned->settings.caster_faces, false));
   });
 }

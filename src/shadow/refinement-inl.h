@@ -299,10 +299,7 @@ HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const SurfaceSa
 class RefinementList {
  public:
   void Add(std::size_t first, FloatMask unsure, std::uint32_t wanted) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(FloatTag(), unsure, bytes);
-    const std::uint32_t bits = (bytes[0] | std::uint32_t{bytes[1]} << 8U) & wanted;
-    for (std::uint32_t mask = bits; mask != 0; mask &= mask - 1) {
+    for (std::uint32_t mask = BitsOf(unsure) & wanted; mask != 0; mask &= mask - 1) {
       indices_[count_++] = static_cast<std::int32_t>(first) + __builtin_ctz(mask);
     }
   }

@@ -1,5 +1,6 @@
 #include "shadow/shadow_map.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 namespace laterna::shadow {
@@ -45,10 +46,10 @@ ShadowBias bias_of(const ShadowSettings& settings) {
   return bias;
 }
 
-ShadowMap::ShadowMap(const light::PlannedLight& planned,
-                     std::span<const std::shared_ptr<const DepthMap>> maps, const frame::Frame& frame,
-                     const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set)
-    : maps_(maps.begin(), maps.end()) {
+ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
+                     const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
+                     InstructionSet set, std::function<bool()> asks_to_stop)
+    : maps_(maps.begin(), maps.end()), asks_to_stop_(std::move(asks_to_stop)) {
   for (std::size_t i = 0; i < maps.size(); ++i) {
     test_.maps.push_back(bind(*maps[i], ray));
   }
@@ -69,6 +70,15 @@ ShadowMap::ShadowMap(const light::PlannedLight& planned,
 
 void ShadowMap::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                              float* alpha) const {
+  std::vector<MapTile> missing;
+  find_missing_tiles_for(test_.instruction_set)(test_, samples, wanted, missing);
+  for (const MapTile& tile : missing) {
+    if (asks_to_stop_ && asks_to_stop_()) {
+      std::fill_n(alpha, samples.group_count * kGroupSize, 0.0F);
+      return;
+    }
+    maps_[tile.map]->require(tile.x, tile.y);
+  }
   look_up_shadow_map_for(test_.instruction_set)(test_, samples, wanted, alpha);
 }
 

@@ -2,6 +2,7 @@
 // Rendering antialiased shadows with depth maps, 1987.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -54,16 +55,28 @@ struct ShadowMapTest {
 
 class ShadowMap final : public ShadowTechnique {
  public:
-  ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<const DepthMap>> maps,
+  ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
             const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
-            InstructionSet set);
+            InstructionSet set, std::function<bool()> asks_to_stop = nullptr);
+  /// Draws the maps' tiles that are needed first. Everything is dark once the caller has asked to stop.
   void find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                     float* alpha) const override;
 
  private:
-  std::vector<std::shared_ptr<const DepthMap>> maps_;
+  std::vector<std::shared_ptr<DepthMap>> maps_;
   ShadowMapTest test_;
+  std::function<bool()> asks_to_stop_;
 };
+
+/// A tile of one of a light's maps.
+struct MapTile {
+  std::size_t map;
+  int x, y;
+};
+/// Appends the tiles that look-ups for these samples will read and that are not drawn yet; some more than once.
+using FindMissingTiles = void (*)(const ShadowMapTest& test, const SurfaceSamples& samples,
+                                  std::span<const std::uint16_t> wanted, std::vector<MapTile>& missing);
+FindMissingTiles find_missing_tiles_for(InstructionSet set);
 
 /// The settings' filter. The refined one tests triangles and knows no bias: with a manual bias the four texels are
 /// compared as `bilinear` does.

@@ -6,6 +6,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "shadow/depth_comparison-inl.h"
 #include "shadow/depth_comparison.h"
 #include "shadow/map_reader-inl.h"
@@ -44,12 +46,97 @@ void look_up_shadow_map(const ShadowMapTest& test, const SurfaceSamples& samples
   unsure.Refine(test, samples, alpha);
 }
 
+// ---------------------------------------------------------------------------------------------- missing tiles
+
+// A rectangle of texels or tiles, ends included.
+struct Span2 {
+  int x_first, x_last, y_first, y_last;
+};
+
+// Tiles with texels that a filter may read for places (x, y).
+class TileFinder {
+ public:
+  TileFinder(const ShadowMapTest& test, std::size_t index, std::vector<MapTile>& missing)
+      : map_(*test.maps[index].map), index_(index), missing_(missing) {
+    // Taps of a kernel lie within half of it about the sample, and a texel more.
+    reach_ = static_cast<float>(test.filter == ShadowFilter::percentage_closer ? test.kernel : 2) * 0.5F + 1;
+  }
+
+  [[nodiscard]] Span2 Around(float x_low, float x_high, float y_low, float y_high) const {
+    const auto tile = [](float texel, int count) {
+      const float last = static_cast<float>(count - 1);
+      const float held = texel > 0 ? std::min(texel, last) : 0.0F;
+      return static_cast<int>(held) >> raster::kTileBits;
+    };
+    return {tile(x_low - reach_, map_.width()), tile(x_high + reach_, map_.width()),
+            tile(y_low - reach_, map_.height()), tile(y_high + reach_, map_.height())};
+  }
+  [[nodiscard]] bool IsDrawn(const Span2& tiles) const {
+    for (int y = tiles.y_first; y <= tiles.y_last; ++y) {
+      for (int x = tiles.x_first; x <= tiles.x_last; ++x) {
+        if (!map_.is_drawn(x, y)) return false;
+      }
+    }
+    return true;
+  }
+  void Note(const Span2& tiles) {
+    for (int y = tiles.y_first; y <= tiles.y_last; ++y) {
+      for (int x = tiles.x_first; x <= tiles.x_last; ++x) {
+        if (!map_.is_drawn(x, y)) missing_.push_back({index_, x, y});
+      }
+    }
+  }
+
+ private:
+  const DepthMap& map_;
+  std::size_t index_;
+  std::vector<MapTile>& missing_;
+  float reach_;
+};
+
+void find_missing_tiles(const ShadowMapTest& test, const SurfaceSamples& samples,
+                        std::span<const std::uint16_t> wanted, std::vector<MapTile>& missing) {
+  const FloatTag d;
+  const auto is_complete = [](const BoundDepthMap& map) { return map.map->is_complete(); };
+  if (std::all_of(test.maps.begin(), test.maps.end(), is_complete)) return;
+  for (std::size_t group = 0; group < samples.group_count; ++group) {
+    for (std::size_t k = 0; k < kGroupSize; k += kLanes) {
+      const std::uint32_t bits = std::uint32_t{wanted[group]} >> k & ((1U << kLanes) - 1);
+      if (bits == 0) continue;
+      const Points points = LoadPoints(samples, group * kGroupSize + k);
+      ForEachMap(test, points.position_ws, [&](const BoundDepthMap& bound, FloatMask here) HWY_ATTR {
+        const MapReader reader(test, bound, samples.position_error);
+        const Receiver r = reader.Find(points);
+        const auto asked = hn::And(hn::And(here, r.is_seen), MaskFromBits(bits));
+        if (hn::AllFalse(d, asked)) return;
+        TileFinder finder(test, static_cast<std::size_t>(&bound - test.maps.data()), missing);
+        const auto low = [&](FloatVector v) HWY_ATTR {
+          return hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(asked, v, Splat(1e30F))));
+        };
+        const auto high = [&](FloatVector v) HWY_ATTR {
+          return hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElse(asked, v, Splat(-1e30F))));
+        };
+        if (finder.IsDrawn(finder.Around(low(r.x), high(r.x), low(r.y), high(r.y)))) return;
+        // Samples of one group may lie far apart on the map.
+        alignas(64) float x[kLanes], y[kLanes];
+        hn::Store(r.x, d, x);
+        hn::Store(r.y, d, y);
+        for (std::uint32_t left = BitsOf(asked); left != 0; left &= left - 1) {
+          const auto i = static_cast<std::size_t>(__builtin_ctz(left));
+          finder.Note(finder.Around(x[i], x[i], y[i], y[i]));
+        }
+      });
+    }
+  }
+}
+
 }  // namespace laterna::shadow::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace laterna::shadow {
 LATERNA_KERNEL_TABLE(look_up_shadow_map)
+LATERNA_KERNEL_TABLE(find_missing_tiles)
 
 bool is_lit(float stored, float tested, float bias) {
   return HWY_STATIC_DISPATCH(IsLit)(stored, tested, bias);

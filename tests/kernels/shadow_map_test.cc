@@ -58,7 +58,7 @@ std::unique_ptr<SurfaceSamples> random_samples(unsigned seed) {
   return s;
 }
 
-using Maps = std::vector<std::shared_ptr<const DepthMap>>;
+using Maps = std::vector<std::shared_ptr<DepthMap>>;
 
 std::vector<float> look_up(const light::PlannedLight& planned, const Maps& maps, const frame::Frame& frame,
                            const SurfaceSamples& samples, int samples_per_pixel, InstructionSet set) {
@@ -232,7 +232,7 @@ TEST_P(ShadowMapOnEverySet, PlainFiltersCompareTexelByTexel) {
       std::mt19937 random(13);
       Maps maps;
       for (const light::ShadowView& view : planned.shadow_views) {
-        maps.push_back(std::make_shared<const DepthMap>(random_map(view, random)));
+        maps.push_back(std::make_shared<DepthMap>(random_map(view, random)));
       }
       const auto samples = random_samples(static_cast<unsigned>(settings.kernel));
       const std::vector<float> got = look_up(planned, maps, owned.frame, *samples, 1, GetParam());
@@ -296,7 +296,7 @@ TEST_P(ShadowMapOnEverySet, TheComparisonsTableHoldsThroughEveryFilter) {
         samples->normal_x_ws[i] = static_cast<float>(n.x), samples->normal_y_ws[i] = static_cast<float>(n.y);
         samples->normal_z_ws[i] = static_cast<float>(n.z);
       }
-      const Maps maps = {std::make_shared<const DepthMap>(std::move(map))};
+      const Maps maps = {std::make_shared<DepthMap>(std::move(map))};
       const std::vector<float> got = look_up(planned, maps, owned.frame, *samples, 1, GetParam());
       for (std::size_t i = 0; i < kGroupSize; ++i) {
         ASSERT_EQ(got[i], row.is_lit ? 1.0F : 0.0F) << row.stored << " " << row.tested << " " << row.bias;
@@ -475,12 +475,10 @@ Maps draw_maps(const light::PlannedLight& planned, const frame::Frame& frame, In
                bool keeps_triangles) {
   const TaskPool pool(1);
   render::BinsPool bins;
-  const Progress unwatched;
-  render::ProgressReport progress(unwatched, 1);
   Maps maps;
   for (const light::ShadowView& view : planned.shadow_views) {
-    maps.push_back(std::make_shared<const DepthMap>(render::draw_depth_map(
-        {frame, pool, bins, set, progress}, view, CasterFaces::both, keeps_triangles)));
+    maps.push_back(std::make_shared<DepthMap>(
+        render::draw_depth_map({frame, pool, bins, set}, view, CasterFaces::both, keeps_triangles)));
   }
   return maps;
 }

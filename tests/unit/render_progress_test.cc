@@ -45,7 +45,7 @@ TEST(RenderProgress, GoesFromNothingToOneByOneThreadAtATime) {
     ASSERT_TRUE(picture);
     ASSERT_FALSE(fractions.empty());
     for (const double fraction : fractions) {
-      EXPECT_GT(fraction, 0);
+      EXPECT_GE(fraction, 0);
       EXPECT_LE(fraction, 1);
     }
     EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));

@@ -1,0 +1,42 @@
+// Tiles of shadow maps, drawn by the camera's own raster code (row 76).
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "base/task_pool.h"
+#include "frame/frame.h"
+#include "laterna/instruction_set.h"
+#include "laterna/scene.h"
+#include "raster/alpha_cut.h"
+#include "render/reuse_pool.h"
+#include "shadow/depth_map.h"
+
+namespace laterna::render {
+
+/// A pass that touches nothing but positions, and alpha where a material is cut out.
+class DepthMapPainter final : public shadow::TilePainter {
+ public:
+  /// `frame` and `bins` stay while the painter lives.
+  DepthMapPainter(const frame::Frame& frame, BinsPool& bins, InstructionSet set, CasterFaces faces)
+      : frame_(frame), bins_pool_(bins), set_(set), faces_(faces) {}
+
+  /// Sorts the casters by tile with all threads. Without it the first tile does so by itself.
+  void prepare(const raster::RasterView& view, const TaskPool& pool);
+  void paint(const raster::RasterView& view, int tile_x, int tile_y, float* depth, TriangleId* ids) override;
+  void rest() override;
+
+ private:
+  using Bins = std::shared_ptr<const raster::TriangleBins>;
+  // `pool` null: by this thread alone.
+  Bins sort_casters(const raster::RasterView& view, const TaskPool* pool);
+
+  const frame::Frame& frame_;
+  BinsPool& bins_pool_;
+  InstructionSet set_;
+  CasterFaces faces_;
+  std::mutex mutex_;
+  Bins bins_;  // null while resting
+};
+
+}  // namespace laterna::render
