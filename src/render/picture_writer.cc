@@ -1,9 +1,9 @@
 #include "render/picture_writer.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/refuse.h"
-#include "image/colour.h"
 
 namespace laterna::render {
 namespace {
@@ -12,18 +12,29 @@ using raster::kTileSide;
 using shade::TilePlane;
 
 // Row y of a tile, from blocks of 4 × 4 to a run of pixels.
-void read_row(const TilePlane& plane, int y, float* row) {
+template <class T>
+void read_row(const T* plane, int y, T* row) {
   for (int block = 0; block < raster::kBlocksPerSide; ++block) {
-    const float* from = plane.data() + raster::index_in_tile(block * raster::kBlockSide, y);
+    const T* from = plane + raster::index_in_tile(block * raster::kBlockSide, y);
     std::copy_n(from, raster::kBlockSide, row + block * raster::kBlockSide);
+  }
+}
+
+// Pixels of four bytes, the last of them 0, to pixels of three, four at a time.
+void drop_alpha(const std::uint32_t* pixels, std::uint8_t* bytes) {
+  for (int x = 0; x < kTileSide; x += 4, pixels += 4, bytes += 12) {
+    const std::uint32_t packed[3] = {pixels[0] | pixels[1] << 24U, pixels[1] >> 8U | pixels[2] << 16U,
+                                     pixels[2] >> 16U | pixels[3] << 8U};
+    std::memcpy(bytes, packed, sizeof packed);
   }
 }
 
 }  // namespace
 
 Result<PictureWriter> PictureWriter::create(const RenderSettings& settings, const RenderTarget& target,
-                                            const frame::Frame& frame) {
+                                            const frame::Frame& frame, InstructionSet set) {
   PictureWriter writer;
+  writer.encode_pixels_ = image::encode_pixels_for(set);
   writer.width_ = settings.width;
   writer.height_ = settings.height;
   const auto width = static_cast<std::size_t>(settings.width);
@@ -61,7 +72,7 @@ void PictureWriter::write_plane(int tile_x, int tile_y, const TilePlane& plane, 
   const int rows = std::min(kTileSide, height_ - tile_y * kTileSide);
   float row[kTileSide];
   for (int y = 0; y < rows; ++y) {
-    read_row(plane, y, row);
+    read_row(plane.data(), y, row);
     std::copy_n(row, columns,
                 target.pixels + static_cast<std::size_t>(tile_y * kTileSide + y) * target.row_stride + x);
   }
@@ -72,27 +83,24 @@ void PictureWriter::write_color8(int tile_x, int tile_y, const shade::TileResult
   const auto columns = static_cast<std::size_t>(std::min(kTileSide, width_ - x));
   const int rows = std::min(kTileSide, height_ - tile_y * kTileSide);
   const auto channels = static_cast<std::size_t>(color8_->channels);
-  const TilePlane* planes[3] = {&tile.beauty.r, &tile.beauty.g, &tile.beauty.b};
-  float row[kTileSide];
-  float alpha[kTileSide];
-  std::uint8_t codes[kTileSide];
+  const bool has_alpha = channels == 4;
+  alignas(64) std::uint32_t pixels[raster::kTilePixels];
+  encode_pixels_({tile.beauty.r.data(), tile.beauty.g.data(), tile.beauty.b.data(),
+                  has_alpha ? tile.alpha.data() : nullptr, color8_->exposure},
+                 raster::kTilePixels, pixels);
+  std::uint32_t row[kTileSide];
+  std::uint8_t bytes[kTileSide * sizeof *row];
   for (int y = 0; y < rows; ++y) {
+    read_row(pixels, y, row);
+    if (has_alpha) {
+      std::memcpy(bytes, row, sizeof bytes);
+    } else {
+      drop_alpha(row, bytes);
+    }
     std::uint8_t* out = color8_->pixels +
                         static_cast<std::size_t>(tile_y * kTileSide + y) * color8_->row_stride +
                         static_cast<std::size_t>(x) * channels;
-    if (channels == 4) read_row(tile.alpha, y, alpha);
-    for (std::size_t c = 0; c < 3; ++c) {
-      read_row(*planes[c], y, row);
-      for (std::size_t i = 0; i < columns; ++i) row[i] *= color8_->exposure;
-      if (channels == 4) {
-        for (std::size_t i = 0; i < columns; ++i) row[i] = alpha[i] > 0 ? row[i] / alpha[i] : 0;
-      }
-      image::encode_srgb(std::span<const float>(row, columns), std::span<std::uint8_t>(codes, columns));
-      for (std::size_t i = 0; i < columns; ++i) out[i * channels + c] = codes[i];
-    }
-    if (channels != 4) continue;
-    image::encode_linear(std::span<const float>(alpha, columns), std::span<std::uint8_t>(codes, columns));
-    for (std::size_t i = 0; i < columns; ++i) out[i * channels + 3] = codes[i];
+    std::memcpy(out, bytes, columns * channels);
   }
 }
 

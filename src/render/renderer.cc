@@ -273,7 +273,7 @@ Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const 
   const Clock::time_point start = Clock::now();
   if (Result<void> checked = render::check_settings(settings, from); !checked)
     return tl::unexpected(checked.error());
-  Result<render::PictureWriter> writer = render::PictureWriter::create(settings, target, frame);
+  Result<render::PictureWriter> writer = render::PictureWriter::create(settings, target, frame, set);
   if (!writer) return tl::unexpected(std::move(writer.error()));
 
   const Drawing drawing(*this);
