@@ -57,7 +57,7 @@ image::MipUse slide_use(const Light& light) {
   return light.slide_is_intensity ? image::MipUse::data : image::MipUse::colour;
 }
 
-Result<TextureLibrary> TextureLibrary::load(const Scene& scene, const TaskPool& pool) {
+Result<TextureLibrary> TextureLibrary::load(const Scene& scene, const TaskPool& pool, InstructionSet set) {
   // Pictures, each with all its uses: decoded once, then made into as many chains as there are uses.
   std::vector<std::pair<int, std::vector<image::MipUse>>> pictures;
   TextureLibrary library;
@@ -84,7 +84,7 @@ Result<TextureLibrary> TextureLibrary::load(const Scene& scene, const TaskPool& 
     if (!faults[i].empty()) return;
     for (const image::MipUse use : uses) {
       library.chains_.at({index, use}) =
-          std::make_unique<image::MipChain>(image::make_mip_chain(*pixels, use));
+          std::make_unique<image::MipChain>(image::make_mip_chain(*pixels, use, set));
     }
   });
   Error error;

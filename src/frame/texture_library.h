@@ -16,7 +16,8 @@ class TextureLibrary {
  public:
   /// Decodes the pictures that materials and lights use, in parallel, each once however often it is used.
   /// Errors of all pictures are collected.
-  static Result<TextureLibrary> load(const Scene& scene, const TaskPool& pool);
+  static Result<TextureLibrary> load(const Scene& scene, const TaskPool& pool,
+                                     InstructionSet set = best_instruction_set());
 
   /// Null where `picture` is −1 or was not asked for with this use.
   [[nodiscard]] const image::MipChain* find(int picture, image::MipUse use) const;

@@ -2,121 +2,150 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/elementary.h"
+#include "image/colour.h"
+#include "image/image_rows.h"
+#include "image/mip_rows.h"
 
 namespace laterna::image {
 namespace {
 
-constexpr float kMax11 = 2047.0F;
-constexpr float kMax10 = 1023.0F;
+// What the 8-bit codes of the channels come to in a texel; they are put together by "or".
+using CodeTexels = std::array<std::array<std::uint32_t, 256>, 4>;
 
-using Float4 = std::array<float, 4>;
-
-std::uint32_t quantise(float value, float largest) {
-  return static_cast<std::uint32_t>(std::clamp(value, 0.0F, 1.0F) * largest + 0.5F);
+const std::array<float, 256>& code_fractions() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> fractions{};
+    for (std::size_t code = 0; code < 256; ++code)
+      fractions[code] = static_cast<float>(static_cast<double>(code) / 255);
+    return fractions;
+  }();
+  return table;
 }
 
-std::uint32_t encode_colour(const Float4& c) {
-  const auto root = [](float v) { return std::sqrt(std::max(v, 0.0F)); };
-  return quantise(root(c[0]), kMax11) << 21U | quantise(root(c[1]), kMax11) << 10U |
-         quantise(root(c[2]), kMax10);
+std::uint32_t quantised_root(float value, float largest) {
+  return static_cast<std::uint32_t>(std::sqrt(value) * largest + 0.5F);
 }
 
-std::uint32_t encode_data(const Float4& c) {
-  return quantise(c[0], 255) | quantise(c[1], 255) << 8U | quantise(c[2], 255) << 16U |
-         quantise(c[3], 255) << 24U;
-}
-
-// 8-bit codes, decoded.
-struct ByteTable {
-  std::array<float, 256> value;
-  explicit ByteTable(bool is_srgb) : value() {
-    for (int i = 0; i < 256; ++i) {
-      value[static_cast<std::size_t>(i)] =
-          static_cast<float>(is_srgb ? linear_from_srgb(i / 255.0) : i / 255.0);
+const CodeTexels& colour_texels() {
+  static const CodeTexels table = [] {
+    CodeTexels texels{};
+    for (std::size_t code = 0; code < 256; ++code) {
+      const float value = linear_from_srgb8()[code];
+      texels[0][code] = quantised_root(value, kLargestRedGreen) << 21U;
+      texels[1][code] = quantised_root(value, kLargestRedGreen) << 10U;
+      texels[2][code] = quantised_root(value, kLargestBlue);
     }
-  }
+    return texels;
+  }();
+  return table;
+}
+
+const CodeTexels& data_texels() {
+  static const CodeTexels table = [] {
+    CodeTexels texels{};
+    for (std::uint32_t channel = 0; channel < 4; ++channel) {
+      for (std::uint32_t code = 0; code < 256; ++code) texels[channel][code] = code << 8U * channel;
+    }
+    return texels;
+  }();
+  return table;
+}
+
+// Where a row's channels lie: grey is spread over r, g and b.
+struct ChannelOffsets {
+  explicit ChannelOffsets(const Image& picture)
+      : step(static_cast<std::size_t>(picture.channels())),
+        green(picture.channels() <= 2 ? 0 : 1),
+        blue(picture.channels() <= 2 ? 0 : 2) {}
+  std::size_t step, green, blue;
 };
 
-// Reads a row of any picture as linear r, g, b, a.
+// Rows of any picture as planes of linear r, g, b and, where it is asked for, alpha.
 class RowReader {
  public:
-  RowReader(const Image& picture, bool is_srgb)
-      : picture_(picture), is_srgb_(is_srgb), bytes_(is_srgb), is_grey_(picture.channels() <= 2) {}
+  RowReader(const Image& picture, bool is_srgb, bool has_alpha)
+      : picture_(picture),
+        is_srgb_(is_srgb),
+        has_alpha_(has_alpha),
+        offsets_(picture),
+        width_(static_cast<std::size_t>(picture.width())),
+        stride_(plane_stride(width_)) {}
 
-  void read(int y, Float4* row) const {
-    switch (picture_.type()) {
-      case PixelType::u8:
-        read_bytes(y, row);
-        break;
-      case PixelType::u16:
-      case PixelType::f32:
-        read_values(y, row);
-        break;
+  void read(int y, float* planes) const {
+    if (picture_.type() == PixelType::u8) {
+      read_codes(y, planes);
+    } else {
+      read_values(y, planes);
     }
+    if (!has_alpha_) return;
+    float* alpha = planes + 3 * stride_;
+    for (int x = 0; x < picture_.width(); ++x)
+      alpha[x] = picture_.has_alpha() ? picture_.value(x, y, picture_.channels() - 1) : 1.0F;
   }
 
  private:
-  void read_bytes(int y, Float4* row) const {
-    const auto channels = static_cast<std::size_t>(picture_.channels());
-    const std::uint8_t* p =
-        picture_.values<std::uint8_t>().data() +
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width()) * channels;
-    for (int x = 0; x < picture_.width(); ++x, p += channels, ++row) {
-      const float alpha = picture_.has_alpha() ? static_cast<float>(p[channels - 1]) / 255.0F : 1.0F;
-      *row = is_grey_ ? Float4{bytes_.value[p[0]], bytes_.value[p[0]], bytes_.value[p[0]], alpha}
-                      : Float4{bytes_.value[p[0]], bytes_.value[p[1]], bytes_.value[p[2]], alpha};
+  void read_codes(int y, float* planes) const {
+    const std::array<float, 256>& value = is_srgb_ ? linear_from_srgb8() : code_fractions();
+    const auto* code = reinterpret_cast<const std::uint8_t*>(row_bytes(picture_, y).data());
+    float* const green = planes + stride_;
+    float* const blue = green + stride_;
+    for (std::size_t x = 0; x < width_; ++x, code += offsets_.step) {
+      planes[x] = value[code[0]];
+      green[x] = value[code[offsets_.green]];
+      blue[x] = value[code[offsets_.blue]];
     }
   }
 
-  void read_values(int y, Float4* row) const {
-    for (int x = 0; x < picture_.width(); ++x, ++row) {
-      for (int c = 0; c < 3; ++c) {
-        const float v = picture_.value(x, y, is_grey_ ? 0 : c);
-        (*row)[static_cast<std::size_t>(c)] = is_srgb_ ? static_cast<float>(linear_from_srgb(v)) : v;
+  void read_values(int y, float* planes) const {
+    const bool is_grey = picture_.channels() <= 2;
+    for (int c = 0; c < 3; ++c, planes += stride_) {
+      for (int x = 0; x < picture_.width(); ++x) {
+        const float v = picture_.value(x, y, is_grey ? 0 : c);
+        planes[x] = is_srgb_ ? static_cast<float>(linear_from_srgb(v)) : v;
       }
-      (*row)[3] = picture_.has_alpha() ? picture_.value(x, y, picture_.channels() - 1) : 1.0F;
     }
   }
 
   const Image& picture_;
-  bool is_srgb_;
-  ByteTable bytes_;
-  bool is_grey_;
+  bool is_srgb_, has_alpha_;
+  ChannelOffsets offsets_;
+  std::size_t width_, stride_;
 };
 
-// Source span of one destination texel along an axis: two texels where the size is even, three where it is
-// odd.
-struct Span {
-  int first = 0, count = 0;
-  float weight[3] = {};
-};
-
-std::vector<Span> spans(int from, int to) {
-  std::vector<Span> all(static_cast<std::size_t>(to));
+// From `from` texels to `to`, along one axis.
+AxisMeans axis_means(int from, int to) {
+  AxisMeans means;
+  means.count = from == to ? 1 : from - 2 * to + 2;
+  for (AlignedVector<float>& weights : means.weights)
+    weights.resize(plane_stride(static_cast<std::size_t>(to)), 0);
   for (int i = 0; i < to; ++i) {
-    Span& s = all[static_cast<std::size_t>(i)];
-    if (from == to) {
-      s = {i, 1, {1}};
-    } else if (from == 2 * to) {
-      s = {2 * i, 2, {0.5F, 0.5F}};
-    } else {
-      // from = 2 to + 1: destination texel i covers [i from/to, (i + 1) from/to). Guthe and Heckbert,
-      // Non-power-of-two mipmapping, 2005.
-      const auto n = static_cast<float>(from);
-      const auto m = static_cast<float>(to);
-      const auto k = static_cast<float>(i);
-      s = {2 * i, 3, {(m - k) / n, m / n, (k + 1) / n}};
-    }
+    // An odd size is 2 to + 1: texel i covers [i from/to, (i + 1) from/to). Guthe and Heckbert, Non-power-of-two
+    // mipmapping, 2005.
+    const auto n = static_cast<float>(from);
+    const auto m = static_cast<float>(to);
+    const auto k = static_cast<float>(i);
+    std::array<float, 3> weights = {(m - k) / n, m / n, (k + 1) / n};
+    if (means.count == 1) weights = {1, 0, 0};
+    if (means.count == 2) weights = {0.5F, 0.5F, 0};
+    for (std::size_t j = 0; j < 3; ++j) means.weights[j][static_cast<std::size_t>(i)] = weights[j];
   }
-  return all;
+  return means;
 }
 
+// Every row goes down the chain as soon as it is there, so that all levels are made while the rows they come from are
+// in cache, and no level is ever held as floats.
 class Builder {
  public:
-  Builder(const Image& picture, MipUse use) : picture_(picture), use_(use) {
-    const bool is_srgb = use != MipUse::data && picture.transfer() == Transfer::srgb;
+  Builder(const Image& picture, MipUse use, InstructionSet set)
+      : picture_(picture),
+        use_(use),
+        shrink_row_(shrink_row_for(set)),
+        encode_colour_(encode_colour_for(set)),
+        encode_data_(encode_data_for(set)),
+        encode_alpha_(encode_alpha_for(set)) {
     chain_.format = format();
     lay_out();
     if (chain_.format == TexelFormat::wide) {
@@ -126,40 +155,34 @@ class Builder {
     }
     if (use == MipUse::colour_with_alpha && picture.has_alpha())
       chain_.alpha.resize(chain_.texel_count + 3, 0);
-    const RowReader reader(picture, is_srgb);
-    const auto width = static_cast<std::size_t>(picture.width());
-    if (chain_.level_count == 1) {
-      rows_.resize(1);
-      reader.read(0, rows_.data());
-      store(chain_.levels[0], 0, rows_.data());
-      return;
-    }
-    // The full size is read three rows at a time and never held as floats.
-    std::vector<Float4> ring(3 * width);
-    rows_.resize(static_cast<std::size_t>(chain_.levels[1].width) *
-                 static_cast<std::size_t>(chain_.levels[1].height));
-    int read = 0;
-    shrink(1, [&](int y) {
-      for (; read <= y; ++read) {
-        Float4* row = ring.data() + static_cast<std::size_t>(read % 3) * width;
-        reader.read(read, row);
-        store(chain_.levels[0], read, row);
-      }
-      return static_cast<const Float4*>(ring.data() + static_cast<std::size_t>(y % 3) * width);
-    });
-    for (int level = 2; level < chain_.level_count; ++level) {
-      const auto from_width =
-          static_cast<std::size_t>(chain_.levels[static_cast<std::size_t>(level) - 1].width);
-      // In place: a destination row never lies behind the source rows it is made of.
-      shrink(level, [&](int y) {
-        return static_cast<const Float4*>(rows_.data() + static_cast<std::size_t>(y) * from_width);
-      });
-    }
+    has_alpha_ = chain_.format == TexelFormat::data || !chain_.alpha.empty();
+    const std::size_t widest = plane_stride(static_cast<std::size_t>(picture.width()));
+    texels_.resize(widest);
+    alpha_.resize(widest);
+    make_stages();
   }
 
-  MipChain take() { return std::move(chain_); }
+  MipChain build() {
+    const bool is_srgb = use_ != MipUse::data && picture_.transfer() == Transfer::srgb;
+    const RowReader reader(picture_, is_srgb, has_alpha_);
+    for (int y = 0; y < picture_.height(); ++y) {
+      float* row = row_of(0, y);
+      reader.read(y, row);
+      add_row(0, y, row);
+    }
+    return std::move(chain_);
+  }
 
  private:
+  // A level while it is made: the last rows of it, and how they become the next level's.
+  struct Stage {
+    std::size_t row_stride = 0;
+    AlignedVector<float> rows;  // row y at y % kRows
+    AxisMeans across, down;     // to the next level; without a count where there is none
+    int next_row = 0;           // the next level's row that is not made yet
+  };
+  static constexpr int kRows = 3;
+
   [[nodiscard]] TexelFormat format() const {
     if (picture_.type() != PixelType::u8) return TexelFormat::wide;
     if (use_ == MipUse::data) return TexelFormat::data;
@@ -178,64 +201,102 @@ class Builder {
     }
   }
 
-  void store(const MipLevel& level, int y, const Float4* row) {
-    const std::size_t first =
-        level.first + static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width);
-    const auto width = static_cast<std::size_t>(level.width);
-    switch (chain_.format) {
-      case TexelFormat::colour:
-        for (std::size_t x = 0; x < width; ++x) chain_.texels[first + x] = encode_colour(row[x]);
-        break;
-      case TexelFormat::data:
-        for (std::size_t x = 0; x < width; ++x) chain_.texels[first + x] = encode_data(row[x]);
-        break;
-      case TexelFormat::wide:
-        for (std::size_t x = 0; x < width; ++x) {
-          for (std::size_t c = 0; c < 3; ++c) chain_.wide[chain_.texel_count * c + first + x] = row[x][c];
-        }
-        break;
+  void make_stages() {
+    stages_.resize(static_cast<std::size_t>(chain_.level_count));
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      const MipLevel& level = chain_.levels[i];
+      stages_[i].row_stride = plane_stride(static_cast<std::size_t>(level.width));
+      stages_[i].rows.resize(kRows * planes() * stages_[i].row_stride, 0);
+      if (i + 1 == stages_.size()) continue;
+      stages_[i].across = axis_means(level.width, chain_.levels[i + 1].width);
+      stages_[i].down = axis_means(level.height, chain_.levels[i + 1].height);
     }
-    if (chain_.alpha.empty()) return;
-    for (std::size_t x = 0; x < width; ++x)
-      chain_.alpha[first + x] = static_cast<std::uint8_t>(quantise(row[x][3], 255));
   }
 
-  // Level `level` into rows_ from the one before it, whose rows `source_row` gives.
-  template <class SourceRow>
-  void shrink(int level, SourceRow source_row) {
-    const MipLevel& from = chain_.levels[static_cast<std::size_t>(level) - 1];
-    const MipLevel& to = chain_.levels[static_cast<std::size_t>(level)];
-    const std::vector<Span> across = spans(from.width, to.width);
-    const std::vector<Span> down = spans(from.height, to.height);
-    for (int y = 0; y < to.height; ++y) {
-      const Span& v = down[static_cast<std::size_t>(y)];
-      const Float4* in[3] = {};
-      for (int j = 0; j < v.count; ++j) in[j] = source_row(v.first + j);
-      Float4* out = rows_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width);
-      for (int x = 0; x < to.width; ++x) {
-        const Span& u = across[static_cast<std::size_t>(x)];
-        Float4 sum{};
-        for (int j = 0; j < v.count; ++j) {
-          for (int i = 0; i < u.count; ++i) {
-            const float weight = u.weight[i] * v.weight[j];
-            for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * in[j][u.first + i][c];
-          }
-        }
-        out[x] = sum;
-      }
-      store(to, y, out);
+  [[nodiscard]] std::size_t planes() const { return has_alpha_ ? 4 : 3; }
+
+  float* row_of(std::size_t level, int y) {
+    Stage& stage = stages_[level];
+    return stage.rows.data() + static_cast<std::size_t>(y % kRows) * planes() * stage.row_stride;
+  }
+
+  // Stores the row, and makes the next level's row where this was the last one it needs.
+  void add_row(std::size_t level, int y, const float* row) {
+    store(chain_.levels[level], y, row);
+    Stage& stage = stages_[level];
+    if (stage.down.count == 0 || y != 2 * stage.next_row + stage.down.count - 1) return;
+    const int to_y = stage.next_row++;
+    float* to = row_of(level + 1, to_y);
+    ShrinkTask task = {static_cast<int>(planes()),
+                       {},
+                       {},
+                       stage.down.count,
+                       stage.row_stride,
+                       &stage.across,
+                       to,
+                       static_cast<std::size_t>(chain_.levels[level + 1].width)};
+    for (int j = 0; j < stage.down.count; ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      task.rows[k] = row_of(level, 2 * to_y + j);
+      task.row_weights[k] = stage.down.weights[k][static_cast<std::size_t>(to_y)];
     }
+    shrink_row_(task);
+    add_row(level + 1, to_y, to);
+  }
+
+  void store(const MipLevel& level, int y, const float* row) {
+    const auto width = static_cast<std::size_t>(level.width);
+    const std::size_t first = level.first + static_cast<std::size_t>(y) * width;
+    const bool is_full_size = level.first == 0;
+    if (chain_.format == TexelFormat::wide) {
+      for (std::size_t c = 0; c < 3; ++c)
+        std::copy_n(row + c * plane_stride(width), width,
+                    chain_.wide.data() + chain_.texel_count * c + first);
+    } else if (is_full_size) {
+      store_codes(y, chain_.texels.data() + first);
+    } else {
+      (chain_.format == TexelFormat::colour ? encode_colour_ : encode_data_)(row, width, texels_.data());
+      std::copy_n(texels_.data(), width, chain_.texels.data() + first);
+    }
+    if (chain_.alpha.empty()) return;
+    encode_alpha_(row + 3 * plane_stride(width), width, alpha_.data());
+    std::copy_n(alpha_.data(), width, chain_.alpha.data() + first);
+  }
+
+  // At full size 8-bit codes need no floats in between.
+  void store_codes(int y, std::uint32_t* to) const {
+    const bool is_data = chain_.format == TexelFormat::data;
+    const CodeTexels& texels = is_data ? data_texels() : colour_texels();
+    const ChannelOffsets offsets(picture_);
+    const auto width = static_cast<std::size_t>(picture_.width());
+    const auto* code = reinterpret_cast<const std::uint8_t*>(row_bytes(picture_, y).data());
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint8_t* at = code + x * offsets.step;
+      to[x] = texels[0][at[0]] | texels[1][at[offsets.green]] | texels[2][at[offsets.blue]];
+    }
+    if (!is_data) return;
+    const std::uint8_t* alpha = code + offsets.step - 1;
+    for (std::size_t x = 0; x < width; ++x)
+      to[x] |= texels[3][picture_.has_alpha() ? alpha[x * offsets.step] : 255];
   }
 
   const Image& picture_;
   MipUse use_;
+  ShrinkRow shrink_row_;
+  EncodeTexels encode_colour_, encode_data_;
+  EncodeAlpha encode_alpha_;
   MipChain chain_;
-  std::vector<Float4> rows_;
+  bool has_alpha_ = false;
+  std::vector<Stage> stages_;
+  AlignedVector<std::uint32_t> texels_;  // a row, whole vectors
+  AlignedVector<std::uint8_t> alpha_;
 };
 
 }  // namespace
 
-MipChain make_mip_chain(const Image& picture, MipUse use) { return Builder(picture, use).take(); }
+MipChain make_mip_chain(const Image& picture, MipUse use, InstructionSet set) {
+  return Builder(picture, use, set).build();
+}
 
 std::array<float, 4> texel(const MipChain& chain, int level, int x, int y) {
   const MipLevel& l = chain.levels[static_cast<std::size_t>(level)];
@@ -252,9 +313,9 @@ std::array<float, 4> texel(const MipChain& chain, int level, int x, int y) {
     return {part(0), part(8), part(16), part(24)};
   }
   const auto square = [](float v) { return v * v; };
-  return {square(static_cast<float>(t >> 21U) / kMax11),
-          square(static_cast<float>(t >> 10U & 2047U) / kMax11),
-          square(static_cast<float>(t & 1023U) / kMax10), alpha};
+  return {square(static_cast<float>(t >> 21U) / kLargestRedGreen),
+          square(static_cast<float>(t >> 10U & 2047U) / kLargestRedGreen),
+          square(static_cast<float>(t & 1023U) / kLargestBlue), alpha};
 }
 
 }  // namespace laterna::image

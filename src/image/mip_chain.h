@@ -6,6 +6,7 @@
 
 #include "base/aligned_vector.h"
 #include "laterna/image.h"
+#include "laterna/instruction_set.h"
 
 namespace laterna::image {
 
@@ -20,6 +21,9 @@ enum class TexelFormat : std::uint8_t {
   /// Three floats: HDR and 16-bit pictures.
   wide,
 };
+
+/// The largest codes of TexelFormat::colour.
+inline constexpr float kLargestRedGreen = 2047, kLargestBlue = 1023;
 
 struct MipLevel {
   std::int32_t width, height;
@@ -53,7 +57,7 @@ enum class MipUse : std::uint8_t {
 
 /// Each level is the area-weighted mean, in linear light, of the one below (odd sizes too). Grey is spread
 /// over r, g and b. Pictures of more than 2³¹ texels over all levels are refused by read_image already.
-MipChain make_mip_chain(const Image& picture, MipUse use);
+MipChain make_mip_chain(const Image& picture, MipUse use, InstructionSet set = best_instruction_set());
 
 /// Linear r, g, b, alpha of one texel, for tests and for rays.
 std::array<float, 4> texel(const MipChain& chain, int level, int x, int y);

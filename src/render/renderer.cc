@@ -61,7 +61,7 @@ struct Renderer::Implementation {
 
   // Pictures are decoded and triangles cut into clusters at the same time.
   Result<void> load() {
-    Result<frame::TextureLibrary> library = frame::TextureLibrary::load(scene, pool);
+    Result<frame::TextureLibrary> library = frame::TextureLibrary::load(scene, pool, set);
     if (!library) return tl::unexpected(std::move(library.error()));
     textures = std::make_shared<const frame::TextureLibrary>(std::move(*library));
     meshes = frame::build_clusters(scene, pool);
