@@ -33,36 +33,31 @@ struct Taps {
   FloatVector weight;
 };
 
-// Texel indices along one axis of `size` texels. Coordinates that are not numbers, or too large to have a
-// fraction, read the first texel: no index ever leaves the level.
-HWY_INLINE Taps FindTaps(FloatVector coordinate, IntVector size, Wrap wrap) {
+// A coordinate brought into [0, 1] along its axis. Coordinates that are not numbers, or too large to have a fraction,
+// read the first texel: no index ever leaves the picture.
+HWY_INLINE FloatVector Wrapped(FloatVector coordinate, Wrap wrap) {
+  const auto c = hn::IfThenElseZero(hn::Abs(coordinate) <= Splat(8388608.0F), coordinate);
+  if (wrap == Wrap::repeat) return c - hn::Floor(c);
+  if (wrap == Wrap::clamp) return Saturate(c);
+  const auto there_and_back = c - Splat(2.0F) * hn::Floor(c * Splat(0.5F));
+  return hn::Min(there_and_back, Splat(2.0F) - there_and_back);
+}
+
+// Texel indices along one axis of `size` texels.
+HWY_INLINE Taps FindTaps(FloatVector wrapped, IntVector size, Wrap wrap) {
   const FloatTag d;
   const IntTag di;
   const auto zero = hn::Zero(di);
-  const auto one = SplatInt(1);
-  auto c = hn::IfThenElseZero(hn::Abs(coordinate) <= Splat(8388608.0F), coordinate);
-  if (wrap == Wrap::repeat) {
-    c = c - hn::Floor(c);
-  } else if (wrap == Wrap::mirror) {
-    c = c - Splat(2.0F) * hn::Floor(c * Splat(0.5F));
-    c = hn::Min(c, Splat(2.0F) - c);
-  } else {
-    c = Saturate(c);
-  }
-  const auto position = c * hn::ConvertTo(d, size) - Splat(0.5F);
+  const auto position = wrapped * hn::ConvertTo(d, size) - Splat(0.5F);
   const auto floor = hn::Floor(position);
-  const auto low = hn::ConvertTo(di, floor);
-  const auto high = low + one;
-  const auto last = size - one;
+  const auto low = hn::ConvertTo(di, floor);  // −1 … size − 1
+  const auto high = low + SplatInt(1);
+  const auto last = size - SplatInt(1);
+  const bool repeats = wrap == Wrap::repeat;
   Taps taps;
   taps.weight = position - floor;
-  if (wrap == Wrap::repeat) {
-    taps.low = hn::IfThenElse(low < zero, last, hn::Min(low, last));
-    taps.high = hn::IfThenElse(high > last, zero, high);
-  } else {
-    taps.low = hn::Min(hn::Max(low, zero), last);
-    taps.high = hn::Min(high, last);
-  }
+  taps.low = repeats ? hn::IfThenElse(low < zero, last, low) : hn::Max(low, zero);
+  taps.high = repeats ? hn::IfThenElse(high > last, zero, high) : hn::Min(high, last);
   return taps;
 }
 
@@ -78,44 +73,40 @@ template <TexelFormat kFormat, bool kAlpha>
 struct TexelReader {
   const MipChain& chain;
 
-  HWY_INLINE Texel4 Read(IntVector index) const {
-    const FloatTag d;
-    const IntTag di;
-    const UintTag du;
-    Texel4 t;
-    t.a = Splat(1.0F);
+  // A row's two taps. Most often they are neighbours in memory, and one access reads both.
+  HWY_INLINE void Read(IntVector row, const Taps& x, bool are_neighbours, Texel4& left, Texel4& right) const {
+    const auto low = row + x.low, high = row + x.high;
     if constexpr (kFormat == TexelFormat::wide) {
-      t.r = hn::GatherIndex(d, chain.wide.data(), index);
-      t.g = hn::GatherIndex(d, chain.wide.data() + chain.texel_count, index);
-      t.b = hn::GatherIndex(d, chain.wide.data() + std::size_t{2} * chain.texel_count, index);
+      left = ReadWide(low);
+      right = ReadWide(high);
+    } else if (are_neighbours) {
+      UintVector packed[2];
+      GatherNeighbours(low, packed);
+      left = Unpacked(packed[0]);
+      right = Unpacked(packed[1]);
     } else {
-      const auto packed = hn::BitCast(
-          du, hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(chain.texels.data()), index));
-      const auto number = [&](UintVector bits) HWY_ATTR { return hn::ConvertTo(d, hn::BitCast(di, bits)); };
-      if constexpr (kFormat == TexelFormat::colour) {
-        const auto r = number(hn::ShiftRight<21>(packed));
-        const auto g = number(hn::And(hn::ShiftRight<10>(packed), hn::Set(du, 2047U)));
-        const auto b = number(hn::And(packed, hn::Set(du, 1023U)));
-        t.r = r * r;
-        t.g = g * g;
-        t.b = b * b;
-      } else {
-        const auto byte = hn::Set(du, 255U);
-        t.r = number(hn::And(packed, byte));
-        t.g = number(hn::And(hn::ShiftRight<8>(packed), byte));
-        t.b = number(hn::And(hn::ShiftRight<16>(packed), byte));
-        if constexpr (kAlpha) t.a = number(hn::ShiftRight<24>(packed));
-      }
+      left = Unpacked(Gather(low));
+      right = Unpacked(Gather(high));
     }
     if constexpr (kAlpha && kFormat != TexelFormat::data) {
-      if (!chain.alpha.empty()) {
-        // Three more bytes than texels can be read.
-        const auto word =
-            hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(chain.alpha.data()), index);
-        t.a = hn::ConvertTo(d, hn::And(word, SplatInt(255)));
-      }
+      left.a = right.a = Splat(1.0F);
+      if (!chain.alpha.empty()) ReadAlpha(row, x, are_neighbours, left.a, right.a);
     }
-    return t;
+  }
+
+  // The same of the alpha plane.
+  HWY_INLINE void ReadAlpha(IntVector row, const Taps& x, bool are_neighbours, FloatVector& left,
+                            FloatVector& right) const {
+    const FloatTag d;
+    const IntTag di;
+    const auto* bytes = reinterpret_cast<const std::int32_t*>(chain.alpha.data());
+    const auto number = [&](IntVector word)
+                            HWY_ATTR { return hn::ConvertTo(d, hn::And(word, SplatInt(255))); };
+    // Three more bytes than texels can be read.
+    const auto word = hn::GatherOffset(di, bytes, row + x.low);
+    left = number(word);
+    right =
+        are_neighbours ? number(hn::ShiftRight<8>(word)) : number(hn::GatherOffset(di, bytes, row + x.high));
   }
 
   HWY_INLINE Texel4 Scaled(const Texel4& t) const {
@@ -133,6 +124,63 @@ struct TexelReader {
       if (!chain.alpha.empty()) out.a = t.a * Splat(1.0F / 255.0F);
     }
     return out;
+  }
+
+ private:
+  HWY_INLINE Texel4 ReadWide(IntVector index) const {
+    const FloatTag d;
+    return {hn::GatherIndex(d, chain.wide.data(), index),
+            hn::GatherIndex(d, chain.wide.data() + chain.texel_count, index),
+            hn::GatherIndex(d, chain.wide.data() + std::size_t{2} * chain.texel_count, index), Splat(1.0F)};
+  }
+
+  HWY_INLINE UintVector Gather(IntVector index) const {
+    const auto* texels = reinterpret_cast<const std::int32_t*>(chain.texels.data());
+    return hn::BitCast(UintTag(), hn::GatherIndex(IntTag(), texels, index));
+  }
+
+  // The texels at `index` and to their right: 64 bits at a time, first for the even lanes, then for the odd ones.
+  HWY_INLINE void GatherNeighbours(IntVector index, UintVector* packed) const {
+#if HWY_TARGET == HWY_SCALAR  // has no vectors of 64-bit lanes half as long
+    packed[0] = Gather(index);
+    packed[1] = Gather(index + SplatInt(1));
+#else
+    const UintTag du;
+    const hn::Repartition<std::uint64_t, UintTag> du64;
+    const hn::RebindToSigned<decltype(du64)> di64;
+    const auto* texels = reinterpret_cast<const std::uint64_t*>(chain.texels.data());
+    const auto indices = hn::BitCast(du64, index);
+    const auto even_offset = hn::ShiftRight<30>(hn::ShiftLeft<32>(indices));
+    const auto odd_offset = hn::ShiftLeft<2>(hn::ShiftRight<32>(indices));
+    const auto even = hn::GatherOffset(du64, texels, hn::BitCast(di64, even_offset));
+    const auto odd = hn::GatherOffset(du64, texels, hn::BitCast(di64, odd_offset));
+    packed[0] = hn::OddEven(hn::BitCast(du, hn::ShiftLeft<32>(odd)), hn::BitCast(du, even));
+    packed[1] = hn::OddEven(hn::BitCast(du, odd), hn::BitCast(du, hn::ShiftRight<32>(even)));
+#endif
+  }
+
+  static HWY_INLINE Texel4 Unpacked(UintVector packed) {
+    const FloatTag d;
+    const IntTag di;
+    const UintTag du;
+    const auto number = [&](UintVector bits) HWY_ATTR { return hn::ConvertTo(d, hn::BitCast(di, bits)); };
+    Texel4 t;
+    t.a = Splat(1.0F);
+    if constexpr (kFormat == TexelFormat::colour) {
+      const auto r = number(hn::ShiftRight<21>(packed));
+      const auto g = number(hn::And(hn::ShiftRight<10>(packed), hn::Set(du, 2047U)));
+      const auto b = number(hn::And(packed, hn::Set(du, 1023U)));
+      t.r = r * r;
+      t.g = g * g;
+      t.b = b * b;
+    } else {
+      const auto byte = hn::Set(du, 255U);
+      t.r = number(hn::And(packed, byte));
+      t.g = number(hn::And(hn::ShiftRight<8>(packed), byte));
+      t.b = number(hn::And(hn::ShiftRight<16>(packed), byte));
+      if constexpr (kAlpha) t.a = number(hn::ShiftRight<24>(packed));
+    }
+    return t;
   }
 };
 
@@ -201,10 +249,11 @@ class Lookup {
   HWY_NOINLINE Texel4 AtLevel(FloatVector u, FloatVector v, FloatVector level) const {
     const FloatTag d;
     const IntTag di;
+    u = Wrapped(u, sampler_.wrap_u);
+    v = Wrapped(v, sampler_.wrap_v);
     const auto is_minified = level > Splat(0.0F);
-    const auto zero = hn::Zero(di);
     if (sampler_.mip == MipFilter::none || chain_.level_count == 1 || hn::AllFalse(d, is_minified)) {
-      return Sharp(u, v, zero, is_minified);
+      return Sharp(u, v, hn::Zero(di), is_minified);
     }
     const auto last = Splat(static_cast<float>(chain_.level_count - 1));
     const auto held = hn::Min(hn::Max(level, Splat(0.0F)), last);
@@ -217,18 +266,32 @@ class Lookup {
     return Lerp(Sharp(u, v, finer, is_minified), Sharp(u, v, coarser, is_minified), held - floor);
   }
 
-  // One level, each lane its own, with the sampler's filter for minified and magnified pictures.
-  HWY_INLINE Texel4 Sharp(FloatVector u, FloatVector v, IntVector level, FloatMask is_minified) const {
-    const FloatTag d;
+  struct LevelLayout {
+    IntVector width, height, first;
+  };
+  // One look-up for all lanes where they read the same level, as most neighbours do.
+  HWY_INLINE LevelLayout LayoutOf(IntVector level) const {
     const IntTag di;
+    const std::int32_t common = hn::GetLane(level);
+    if (HWY_LIKELY(hn::AllTrue(di, level == SplatInt(common)))) {
+      const MipLevel& l = chain_.levels[static_cast<std::size_t>(common)];
+      return {SplatInt(l.width), SplatInt(l.height), SplatInt(static_cast<std::int32_t>(l.first))};
+    }
     static_assert(sizeof(MipLevel) == 3 * sizeof(std::int32_t));
     const std::int32_t* table = &chain_.levels[0].width;
     const auto entry = level + level + level;
-    const auto width = hn::GatherIndex(di, table, entry);
-    const auto height = hn::GatherIndex(di, table, entry + SplatInt(1));
-    const auto first = hn::GatherIndex(di, table, entry + SplatInt(2));
-    Taps x = FindTaps(u, width, sampler_.wrap_u);
-    Taps y = FindTaps(v, height, sampler_.wrap_v);
+    return {hn::GatherIndex(di, table, entry), hn::GatherIndex(di, table, entry + SplatInt(1)),
+            hn::GatherIndex(di, table, entry + SplatInt(2))};
+  }
+
+  // One level, each lane its own, with the sampler's filter for minified and magnified pictures.
+  HWY_INLINE Texel4 Sharp(FloatVector wrapped_u, FloatVector wrapped_v, IntVector level,
+                          FloatMask is_minified) const {
+    const FloatTag d;
+    const IntTag di;
+    const LevelLayout layout = LayoutOf(level);
+    Taps x = FindTaps(wrapped_u, layout.width, sampler_.wrap_u);
+    Taps y = FindTaps(wrapped_v, layout.height, sampler_.wrap_v);
     if (sampler_.magnify == Filter::nearest || sampler_.minify == Filter::nearest) {
       const auto all = hn::MaskFromVec(hn::BitCast(d, SplatInt(-1)));
       const auto is_nearest = sampler_.magnify == sampler_.minify  ? all
@@ -237,10 +300,13 @@ class Lookup {
       TakeNearest(x, is_nearest);
       TakeNearest(y, is_nearest);
     }
-    const auto top = first + y.low * width;
-    const auto bottom = first + y.high * width;
-    const Texel4 above = Lerp(reader_.Read(top + x.low), reader_.Read(top + x.high), x.weight);
-    const Texel4 below = Lerp(reader_.Read(bottom + x.low), reader_.Read(bottom + x.high), x.weight);
+    const bool are_neighbours = hn::AllTrue(di, x.high == x.low + SplatInt(1));
+    const auto row = [&](IntVector y_index) HWY_ATTR {
+      Texel4 left, right;
+      reader_.Read(layout.first + y_index * layout.width, x, are_neighbours, left, right);
+      return Lerp(left, right, x.weight);
+    };
+    const Texel4 above = row(y.low), below = row(y.high);
     return reader_.Scaled(Lerp(above, below, y.weight));
   }
 
@@ -270,33 +336,27 @@ HWY_NOINLINE Texel4 LookUp(const MipChain& chain, const Sampler& sampler, int an
 // no size.
 HWY_INLINE FloatVector LookUpFullSizeAlpha(const MipChain& chain, const Sampler& sampler, FloatVector u,
                                            FloatVector v) {
-  const FloatTag d;
-  const IntTag di;
   if (chain.format == TexelFormat::data) {
     const auto zero = Splat(0.0F);
     return LookUp<true>(chain, sampler, 1, {u, v, zero, zero, zero, zero}).a;
   }
   if (chain.alpha.empty()) return Splat(1.0F);
-  Taps x = FindTaps(u, SplatInt(chain.width()), sampler.wrap_u);
-  Taps y = FindTaps(v, SplatInt(chain.height()), sampler.wrap_v);
+  const auto width = SplatInt(chain.width());
+  Taps x = FindTaps(Wrapped(u, sampler.wrap_u), width, sampler.wrap_u);
+  Taps y = FindTaps(Wrapped(v, sampler.wrap_v), SplatInt(chain.height()), sampler.wrap_v);
   if (sampler.magnify == Filter::nearest) {
-    const auto all = hn::MaskFromVec(hn::BitCast(d, SplatInt(-1)));
+    const auto all = hn::MaskFromVec(hn::BitCast(FloatTag(), SplatInt(-1)));
     TakeNearest(x, all);
     TakeNearest(y, all);
   }
-  const auto* bytes = reinterpret_cast<const std::int32_t*>(chain.alpha.data());
-  const auto number = [&](IntVector word) HWY_ATTR { return hn::ConvertTo(d, hn::And(word, SplatInt(255))); };
-  const auto are_neighbours = hn::AllTrue(di, x.high == x.low + SplatInt(1));
-  const auto row = [&](IntVector first) HWY_ATTR {
-    // Three more bytes than texels can be read: the word that starts with a texel holds its right neighbour, too.
-    const auto word = hn::GatherOffset(di, bytes, first + x.low);
-    const auto left = number(word);
-    const auto right = are_neighbours ? number(hn::ShiftRight<8>(word))
-                                      : number(hn::GatherOffset(di, bytes, first + x.high));
+  const bool are_neighbours = hn::AllTrue(IntTag(), x.high == x.low + SplatInt(1));
+  const TexelReader<TexelFormat::colour, true> reader{chain};
+  const auto row = [&](IntVector y_index) HWY_ATTR {
+    FloatVector left, right;
+    reader.ReadAlpha(y_index * width, x, are_neighbours, left, right);
     return left + (right - left) * x.weight;
   };
-  const auto width = SplatInt(chain.width());
-  const auto above = row(y.low * width), below = row(y.high * width);
+  const auto above = row(y.low), below = row(y.high);
   return (above + (below - above) * y.weight) * Splat(1.0F / 255.0F);
 }
 
