@@ -1,4 +1,4 @@
-// Holes of cut-outs: the alpha of base colour at its full size, at N points at a time.
+// The alpha of surfaces at N points at a time, and the holes of cut-outs.
 #if defined(LATERNA_FRAME_SURFACE_ALPHA_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LATERNA_FRAME_SURFACE_ALPHA_INL_H_
 #undef LATERNA_FRAME_SURFACE_ALPHA_INL_H_
@@ -10,6 +10,7 @@
 
 #include "base/vectors-inl.h"
 #include "frame/surface_alpha.h"
+#include "frame/texture_coordinates-inl.h"
 #include "frame/triangle_corners-inl.h"
 #include "image/texture_lookup-inl.h"
 
@@ -18,41 +19,39 @@ namespace laterna::frame::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 
-// Coordinates over the picture of a binding: mesh coordinates after KHR_texture_transform; (0, 0) before it where the
-// mesh has none.
-struct TexturePoint {
-  FloatVector u, v;
-};
-template <bool kUniform>
-HWY_INLINE TexturePoint FindTexturePoint(const Frame& frame, const TextureBinding& binding,
-                                         const TriangleCorners<kUniform>& corners, const Weights& weights) {
-  const auto set = static_cast<std::size_t>(binding.uv_set);
-  const auto stream = corners.StreamAt(kUvField + set);
-  const auto zero = Splat(0.0F);
-  if (stream.IsMissing()) return {zero, zero};
-  const auto read = [&](const AlignedVector<float>& values) HWY_ATTR {
-    return stream.OrElse(Interpolate(corners.At(values.data(), stream.first), weights), zero);
-  };
-  const auto u = read(frame.uv_u[set]), v = read(frame.uv_v[set]);
-  const std::array<float, 6>& m = binding.uv_from_mesh_uv;
-  return {(Splat(m[0]) * u + Splat(m[1]) * v) + Splat(m[2]),
-          (Splat(m[3]) * u + Splat(m[4]) * v) + Splat(m[5])};
-}
-
-// alpha_at() of N points, all on triangles of `surface`.
-template <bool kUniform>
-HWY_INLINE FloatVector AlphaAt(const Frame& frame, const Surface& surface,
-                               const TriangleCorners<kUniform>& corners, const Weights& weights) {
+// Base colour's alpha at N points, all on triangles of `surface`; `look_up` reads a picture's at a footprint.
+template <bool kUniform, class LookUp>
+HWY_INLINE FloatVector AlphaOf(const Frame& frame, const Surface& surface,
+                               const TriangleCorners<kUniform>& corners, const Weights& weights,
+                               const LookUp& look_up) {
   auto alpha = Splat(surface.base_color[3]);
   const TextureBinding& binding = surface.base_color_texture;
-  if (binding.chain != nullptr) {
-    const TexturePoint p = FindTexturePoint(frame, binding, corners, weights);
-    alpha = alpha * image::HWY_NAMESPACE::LookUpFullSizeAlpha(*binding.chain, binding.sampler, p.u, p.v);
-  }
+  if (binding.chain != nullptr) alpha = alpha * look_up(FindFootprint(frame, binding, corners, weights));
   const auto stream = corners.StreamAt(kColorField);
   if (stream.IsMissing()) return alpha;
   const auto vertex_alpha = Interpolate(corners.At(frame.color_a.data(), stream.first), weights);
   return alpha * stream.OrElse(vertex_alpha, Splat(1.0F));
+}
+
+// alpha_at() of N points: slopes of the weights are not used.
+template <bool kUniform>
+HWY_INLINE FloatVector AlphaAtFullSize(const Frame& frame, const Surface& surface,
+                                       const TriangleCorners<kUniform>& corners, const Weights& weights) {
+  const TextureBinding& binding = surface.base_color_texture;
+  return AlphaOf(frame, surface, corners, weights, [&](const image::HWY_NAMESPACE::Footprint& f) HWY_ATTR {
+    return image::HWY_NAMESPACE::LookUpFullSizeAlpha(*binding.chain, binding.sampler, f.u, f.v);
+  });
+}
+
+// The same as a view sees it, filtered for its pixels.
+template <bool kUniform>
+HWY_INLINE FloatVector AlphaInView(const Frame& frame, const Surface& surface,
+                                   const TriangleCorners<kUniform>& corners, const Weights& weights,
+                                   int anisotropy) {
+  const TextureBinding& binding = surface.base_color_texture;
+  return AlphaOf(frame, surface, corners, weights, [&](const image::HWY_NAMESPACE::Footprint& f) HWY_ATTR {
+    return image::HWY_NAMESPACE::LookUpAlpha(*binding.chain, binding.sampler, anisotropy, f);
+  });
 }
 
 // Which of the `asked` points lie in holes of their triangles. Surfaces are looked up one after the other: neighbours
@@ -79,7 +78,7 @@ HWY_INLINE FloatMask FindHoles(const Frame& frame, const TriangleCorners<false>&
     const std::int32_t index = materials[lane];
     const Surface& surface = frame.surfaces[static_cast<std::size_t>(index)];
     const auto here = hn::And(left, hn::RebindMask(d, material == SplatInt(index)));
-    const auto is_hole = AlphaAt(frame, surface, corners, weights) < Splat(cutoff_of(surface));
+    const auto is_hole = AlphaAtFullSize(frame, surface, corners, weights) < Splat(cutoff_of(surface));
     holes = hn::Or(holes, hn::And(here, is_hole));
     left = hn::AndNot(here, left);
   }

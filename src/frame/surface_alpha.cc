@@ -30,7 +30,7 @@ Taps find_taps(float coordinate, int size, Wrap wrap) {
 
 float texture_alpha(const TextureBinding& binding, float u, float v) {
   const image::MipChain& chain = *binding.chain;
-  if (chain.format != image::TexelFormat::data && chain.alpha.empty()) return 1;
+  if (!chain.has_alpha()) return 1;
   Taps x = find_taps(u, chain.width(), binding.sampler.wrap_u);
   Taps y = find_taps(v, chain.height(), binding.sampler.wrap_v);
   if (binding.sampler.magnify == Filter::nearest) {

@@ -42,6 +42,7 @@ struct MipChain {
       alpha;  // one per texel plus 3 readable bytes; empty: opaque, or in `texels` (data)
   std::uint32_t texel_count = 0;
 
+  [[nodiscard]] bool has_alpha() const { return format == TexelFormat::data || !alpha.empty(); }
   [[nodiscard]] int width() const { return levels[0].width; }
   [[nodiscard]] int height() const { return levels[0].height; }
   [[nodiscard]] std::size_t memory_bytes() const {

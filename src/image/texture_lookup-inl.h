@@ -26,6 +26,25 @@ struct Footprint {
 struct Texel4 {
   FloatVector r, g, b, a;
 };
+HWY_INLINE Texel4 operator+(const Texel4& a, const Texel4& b) {
+  return {a.r + b.r, a.g + b.g, a.b + b.b, a.a + b.a};
+}
+HWY_INLINE Texel4 operator-(const Texel4& a, const Texel4& b) {
+  return {a.r - b.r, a.g - b.g, a.b - b.b, a.a - b.a};
+}
+HWY_INLINE Texel4 operator*(const Texel4& a, FloatVector s) { return {a.r * s, a.g * s, a.b * s, a.a * s}; }
+
+HWY_INLINE Texel4 Where(FloatMask mask, const Texel4& t) {
+  return {hn::IfThenElseZero(mask, t.r), hn::IfThenElseZero(mask, t.g), hn::IfThenElseZero(mask, t.b),
+          hn::IfThenElseZero(mask, t.a)};
+}
+HWY_INLINE FloatVector Where(FloatMask mask, FloatVector value) { return hn::IfThenElseZero(mask, value); }
+
+// Of texels or of one of their numbers.
+template <class T>
+HWY_INLINE T Lerp(const T& a, const T& b, FloatVector t) {
+  return a + (b - a) * t;
+}
 
 // Where a row or column of texels is read: two neighbours and the weight of the second.
 struct Taps {
@@ -68,9 +87,45 @@ HWY_INLINE void TakeNearest(Taps& taps, FloatMask is_nearest) {
   taps.weight = hn::IfThenZeroElse(is_nearest, taps.weight);
 }
 
-// Texels not yet scaled to [0, 1]: the scale is applied once, after filtering.
+// A reader gives texels not yet scaled to [0, 1]: the scale is applied once, after filtering.
+
+// Alpha alone.
+struct AlphaReader {
+  using Texel = FloatVector;
+  const MipChain& chain;
+
+  HWY_INLINE void Read(IntVector row, const Taps& x, bool are_neighbours, FloatVector& left,
+                       FloatVector& right) const {
+    const FloatTag d;
+    const IntTag di;
+    const UintTag du;
+    const auto number = [&](UintVector bits) HWY_ATTR { return hn::ConvertTo(d, hn::BitCast(di, bits)); };
+    if (chain.format == TexelFormat::data) {
+      const auto* words = reinterpret_cast<const std::int32_t*>(chain.texels.data());
+      const auto read = [&](IntVector column) HWY_ATTR {
+        return number(hn::ShiftRight<24>(hn::BitCast(du, hn::GatherIndex(di, words, row + column))));
+      };
+      left = read(x.low);
+      right = read(x.high);
+      return;
+    }
+    // Three more bytes than texels can be read: the word that starts with a texel holds its right neighbour, too.
+    const auto* bytes = reinterpret_cast<const std::int32_t*>(chain.alpha.data());
+    const auto read = [&](IntVector column)
+                          HWY_ATTR { return hn::BitCast(du, hn::GatherOffset(di, bytes, row + column)); };
+    const auto byte = hn::Set(du, 255U);
+    const auto word = read(x.low);
+    left = number(hn::And(word, byte));
+    right = number(hn::And(are_neighbours ? hn::ShiftRight<8>(word) : read(x.high), byte));
+  }
+
+  HWY_INLINE FloatVector Scaled(FloatVector alpha) const { return alpha * Splat(1.0F / 255.0F); }
+};
+
+// Colour, and alpha where it is wanted; otherwise 1.
 template <TexelFormat kFormat, bool kAlpha>
 struct TexelReader {
+  using Texel = Texel4;
   const MipChain& chain;
 
   // A row's two taps. Most often they are neighbours in memory, and one access reads both.
@@ -90,23 +145,8 @@ struct TexelReader {
     }
     if constexpr (kAlpha && kFormat != TexelFormat::data) {
       left.a = right.a = Splat(1.0F);
-      if (!chain.alpha.empty()) ReadAlpha(row, x, are_neighbours, left.a, right.a);
+      if (!chain.alpha.empty()) AlphaReader{chain}.Read(row, x, are_neighbours, left.a, right.a);
     }
-  }
-
-  // The same of the alpha plane.
-  HWY_INLINE void ReadAlpha(IntVector row, const Taps& x, bool are_neighbours, FloatVector& left,
-                            FloatVector& right) const {
-    const FloatTag d;
-    const IntTag di;
-    const auto* bytes = reinterpret_cast<const std::int32_t*>(chain.alpha.data());
-    const auto number = [&](IntVector word)
-                            HWY_ATTR { return hn::ConvertTo(d, hn::And(word, SplatInt(255))); };
-    // Three more bytes than texels can be read.
-    const auto word = hn::GatherOffset(di, bytes, row + x.low);
-    left = number(word);
-    right =
-        are_neighbours ? number(hn::ShiftRight<8>(word)) : number(hn::GatherOffset(di, bytes, row + x.high));
   }
 
   HWY_INLINE Texel4 Scaled(const Texel4& t) const {
@@ -184,17 +224,15 @@ struct TexelReader {
   }
 };
 
-HWY_INLINE Texel4 Lerp(const Texel4& a, const Texel4& b, FloatVector t) {
-  return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t, a.a + (b.a - a.a) * t};
-}
-
-template <TexelFormat kFormat, bool kAlpha>
+template <class Reader>
 class Lookup {
+  using Texel = typename Reader::Texel;
+
  public:
   Lookup(const MipChain& chain, const Sampler& sampler, int anisotropy)
       : reader_{chain}, chain_(chain), sampler_(sampler), anisotropy_(anisotropy) {}
 
-  Texel4 Filtered(const Footprint& f) const {
+  Texel Filtered(const Footprint& f) const {
     const auto width = Splat(static_cast<float>(chain_.width()));
     const auto height = Splat(static_cast<float>(chain_.height()));
     // Length of the pixel's two sides, in texels, squared.
@@ -203,6 +241,12 @@ class Lookup {
     const auto longest = hn::Max(x_squared, y_squared);
     if (anisotropy_ <= 1 || sampler_.mip == MipFilter::none) return AtLevel(f.u, f.v, Level(longest));
     return Anisotropic(f, x_squared, y_squared);
+  }
+
+  // As for a footprint of no size.
+  HWY_INLINE Texel AtFullSize(FloatVector u, FloatVector v) const {
+    const auto none = Splat(0.0F) > Splat(1.0F);
+    return Sharp(Wrapped(u, sampler_.wrap_u), Wrapped(v, sampler_.wrap_v), hn::Zero(IntTag()), none);
   }
 
  private:
@@ -214,7 +258,7 @@ class Lookup {
 
   // Several probes along the footprint's longer side, each as wide as the shorter
   // (EXT_texture_filter_anisotropic).
-  HWY_NOINLINE Texel4 Anisotropic(const Footprint& f, FloatVector x_squared, FloatVector y_squared) const {
+  HWY_NOINLINE Texel Anisotropic(const Footprint& f, FloatVector x_squared, FloatVector y_squared) const {
     const auto along_x = x_squared > y_squared;
     const auto longest = hn::Max(x_squared, y_squared);
     const auto shortest = hn::Max(hn::Min(x_squared, y_squared), Splat(1e-20F));
@@ -230,23 +274,19 @@ class Lookup {
     const auto dv = hn::IfThenElse(along_x, f.dv_dx, f.dv_dy);
     const auto step = Splat(1.0F) / (probes + Splat(1.0F));
     const auto inverse = Splat(1.0F) / probes;
-    const auto zero = Splat(0.0F);
-    Texel4 sum = {zero, zero, zero, zero};
+    Texel sum = {};
     for (int i = 1; i <= anisotropy_; ++i) {
       const auto number = Splat(static_cast<float>(i));
       const auto is_probe = number <= probes;
       if (hn::AllFalse(FloatTag(), is_probe)) break;
       const auto t = number * step - Splat(0.5F);
-      const Texel4 probe = AtLevel(f.u + t * du, f.v + t * dv, level);
-      sum.r = sum.r + hn::IfThenElseZero(is_probe, probe.r);
-      sum.g = sum.g + hn::IfThenElseZero(is_probe, probe.g);
-      sum.b = sum.b + hn::IfThenElseZero(is_probe, probe.b);
-      sum.a = sum.a + hn::IfThenElseZero(is_probe, probe.a);
+      const Texel probe = AtLevel(f.u + t * du, f.v + t * dv, level);
+      sum = sum + Where(is_probe, probe);
     }
-    return {sum.r * inverse, sum.g * inverse, sum.b * inverse, sum.a * inverse};
+    return sum * inverse;
   }
 
-  HWY_NOINLINE Texel4 AtLevel(FloatVector u, FloatVector v, FloatVector level) const {
+  HWY_NOINLINE Texel AtLevel(FloatVector u, FloatVector v, FloatVector level) const {
     const FloatTag d;
     const IntTag di;
     u = Wrapped(u, sampler_.wrap_u);
@@ -285,8 +325,8 @@ class Lookup {
   }
 
   // One level, each lane its own, with the sampler's filter for minified and magnified pictures.
-  HWY_INLINE Texel4 Sharp(FloatVector wrapped_u, FloatVector wrapped_v, IntVector level,
-                          FloatMask is_minified) const {
+  HWY_INLINE Texel Sharp(FloatVector wrapped_u, FloatVector wrapped_v, IntVector level,
+                         FloatMask is_minified) const {
     const FloatTag d;
     const IntTag di;
     const LevelLayout layout = LayoutOf(level);
@@ -302,15 +342,15 @@ class Lookup {
     }
     const bool are_neighbours = hn::AllTrue(di, x.high == x.low + SplatInt(1));
     const auto row = [&](IntVector y_index) HWY_ATTR {
-      Texel4 left, right;
+      Texel left, right;
       reader_.Read(layout.first + y_index * layout.width, x, are_neighbours, left, right);
       return Lerp(left, right, x.weight);
     };
-    const Texel4 above = row(y.low), below = row(y.high);
+    const Texel above = row(y.low), below = row(y.high);
     return reader_.Scaled(Lerp(above, below, y.weight));
   }
 
-  TexelReader<kFormat, kAlpha> reader_;
+  Reader reader_;
   const MipChain& chain_;
   const Sampler& sampler_;
   int anisotropy_;  // most probes along a stretched footprint, 1…16
@@ -323,41 +363,27 @@ HWY_NOINLINE Texel4 LookUp(const MipChain& chain, const Sampler& sampler, int an
                            const Footprint& footprint) {
   switch (chain.format) {
     case TexelFormat::colour:
-      return Lookup<TexelFormat::colour, kAlpha>(chain, sampler, anisotropy).Filtered(footprint);
+      return Lookup<TexelReader<TexelFormat::colour, kAlpha>>(chain, sampler, anisotropy).Filtered(footprint);
     case TexelFormat::data:
-      return Lookup<TexelFormat::data, kAlpha>(chain, sampler, anisotropy).Filtered(footprint);
+      return Lookup<TexelReader<TexelFormat::data, kAlpha>>(chain, sampler, anisotropy).Filtered(footprint);
     case TexelFormat::wide:
       break;
   }
-  return Lookup<TexelFormat::wide, kAlpha>(chain, sampler, anisotropy).Filtered(footprint);
+  return Lookup<TexelReader<TexelFormat::wide, kAlpha>>(chain, sampler, anisotropy).Filtered(footprint);
 }
 
-// Alpha alone, of the full-size picture, filtered as where it is magnified: what LookUp<true> gives for a footprint of
-// no size.
+// The alpha that LookUp<true> gives.
+inline HWY_NOINLINE FloatVector LookUpAlpha(const MipChain& chain, const Sampler& sampler, int anisotropy,
+                                            const Footprint& footprint) {
+  if (!chain.has_alpha()) return Splat(1.0F);
+  return Lookup<AlphaReader>(chain, sampler, anisotropy).Filtered(footprint);
+}
+
+// The same for a footprint of no size.
 HWY_INLINE FloatVector LookUpFullSizeAlpha(const MipChain& chain, const Sampler& sampler, FloatVector u,
                                            FloatVector v) {
-  if (chain.format == TexelFormat::data) {
-    const auto zero = Splat(0.0F);
-    return LookUp<true>(chain, sampler, 1, {u, v, zero, zero, zero, zero}).a;
-  }
-  if (chain.alpha.empty()) return Splat(1.0F);
-  const auto width = SplatInt(chain.width());
-  Taps x = FindTaps(Wrapped(u, sampler.wrap_u), width, sampler.wrap_u);
-  Taps y = FindTaps(Wrapped(v, sampler.wrap_v), SplatInt(chain.height()), sampler.wrap_v);
-  if (sampler.magnify == Filter::nearest) {
-    const auto all = hn::MaskFromVec(hn::BitCast(FloatTag(), SplatInt(-1)));
-    TakeNearest(x, all);
-    TakeNearest(y, all);
-  }
-  const bool are_neighbours = hn::AllTrue(IntTag(), x.high == x.low + SplatInt(1));
-  const TexelReader<TexelFormat::colour, true> reader{chain};
-  const auto row = [&](IntVector y_index) HWY_ATTR {
-    FloatVector left, right;
-    reader.ReadAlpha(y_index * width, x, are_neighbours, left, right);
-    return left + (right - left) * x.weight;
-  };
-  const auto above = row(y.low), below = row(y.high);
-  return (above + (below - above) * y.weight) * Splat(1.0F / 255.0F);
+  if (!chain.has_alpha()) return Splat(1.0F);
+  return Lookup<AlphaReader>(chain, sampler, 1).AtFullSize(u, v);
 }
 
 }  // namespace laterna::image::HWY_NAMESPACE

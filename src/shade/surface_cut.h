@@ -2,25 +2,39 @@
 #pragma once
 
 #include "raster/alpha_cut.h"
+#include "shade/pixel_rays.h"
 #include "shade/surface_points.h"
 
 namespace laterna::shade {
+
+/// What finding the alpha of samples needs to know of where they come from.
+struct CutSource {
+  PointSource points;
+  PixelRays rays;  ///< of points.view
+  /// Alpha is read from the full-size texture instead of the size that suits the view. Shadow maps do, so that what
+  /// casts a shadow does not depend on how large the light sees it.
+  bool full_size;
+};
+
+/// Of the samples in `mask` of a rasterised block, those whose alpha reaches the material's cutoff.
+using KeepAboveCutoff = std::uint32_t (*)(const CutSource& source, TriangleId id,
+                                          const raster::BlockSamples& samples, std::uint32_t mask);
+KeepAboveCutoff keep_above_cutoff_for(InstructionSet set);
 
 /// Keeps samples whose alpha reaches the material's cutoff; of blended surfaces, where they are drawn as cut-outs
 /// (shadow maps), those that are at least half opaque.
 class SurfaceCut final : public raster::AlphaCut {
  public:
-  /// `full_size`: alpha is read from the full-size texture. Shadow maps do, so that what casts a shadow does not
-  /// depend on how large the light sees it.
   SurfaceCut(const PointSource& source, bool full_size, InstructionSet set)
-      : source_(source), full_size_(full_size), keep_above_cutoff_(keep_above_cutoff_for(set)) {}
+      : source_{source, PixelRays(*source.view), full_size}, keep_above_cutoff_(keep_above_cutoff_for(set)) {}
 
   [[nodiscard]] std::uint32_t keep(TriangleId id, const raster::BlockSamples& samples,
-                                   std::uint32_t mask) const override;
+                                   std::uint32_t mask) const override {
+    return keep_above_cutoff_(source_, id, samples, mask);
+  }
 
  private:
-  PointSource source_;
-  bool full_size_;
+  CutSource source_;
   KeepAboveCutoff keep_above_cutoff_;
 };
 

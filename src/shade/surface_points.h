@@ -31,16 +31,4 @@ using FindSurfacePoints = void (*)(const PointSource& source, const frame::Surfa
                                    shadow::SurfaceSamples& samples, SurfacePoints& points);
 FindSurfacePoints find_surface_points_for(InstructionSet set);
 
-/// Of the 16 samples of one triangle whose positions a rasterised block gives, those whose alpha reaches the cutoff.
-struct CutBlock {
-  TriangleId id;
-  float x, y;      // first sample
-  const float* q;  // 16 reversed depths
-  /// Textures are read at their full size instead of the size that suits the view.
-  bool full_size;
-};
-using KeepAboveCutoff = std::uint32_t (*)(const PointSource& source, const frame::Surface& surface,
-                                          float cutoff, const CutBlock& block);
-KeepAboveCutoff keep_above_cutoff_for(InstructionSet set);
-
 }  // namespace laterna::shade

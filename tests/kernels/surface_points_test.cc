@@ -9,6 +9,7 @@
 #include <random>
 
 #include "reference/shapes.h"
+#include "shade/surface_cut.h"
 
 namespace laterna::shade {
 namespace {
@@ -411,14 +412,17 @@ TEST_P(SurfacePointsOnEverySet, AlphaIsTheProductOfFactorVertexAndTexture) {
 }
 
 TEST_P(SurfacePointsOnEverySet, CutOutsKeepTheSamplesThatReachTheCutoff) {
-  const reference::OwnedFrame owned = random_triangles();
+  reference::OwnedFrame owned = random_triangles();
   for (const bool is_orthographic : {false, true}) {
     const Camera camera(is_orthographic);
     const Samples s = random_samples(owned.frame, camera, 10);
     Surface surface;
     surface.alpha_mode = AlphaMode::mask;
     surface.base_color_texture = {&full_size_only(), {}, 0, {1, 0, 0, 0, 1, 0}};
+    surface.alpha_cutoff = 0.4F;
+    std::fill(owned.frame.surfaces.begin(), owned.frame.surfaces.end(), surface);
     const PointSource source = {&owned.frame, &camera.raster, Interpolation::perspective, 1};
+    const SurfaceCut full_size(source, true, GetParam()), in_view(source, false, GetParam());
     int kept_count = 0, asked = 0, minified = 0;
     for (std::size_t n = 0; n < kMaxSamples; ++n) {
       const TriangleId id = s.samples->id[n];
@@ -428,9 +432,11 @@ TEST_P(SurfacePointsOnEverySet, CutOutsKeepTheSamplesThatReachTheCutoff) {
       for (std::size_t i = 0; i < 16; ++i) {
         q[i] = static_cast<float>(camera.reversed(camera.meet(t, first + glm::dvec2(i % 4, i / 4))));
       }
-      CutBlock block = {id, s.samples->x[n], s.samples->y[n], q, true};
-      const std::uint32_t kept = keep_above_cutoff_for(GetParam())(source, surface, 0.4F, block);
-      ASSERT_EQ(kept, keep_above_cutoff_for(InstructionSet::scalar)(source, surface, 0.4F, block));
+      const raster::BlockSamples block = {s.samples->x[n], s.samples->y[n], q};
+      const std::uint32_t kept = full_size.keep(id, block, 0xFFFFU);
+      ASSERT_EQ(kept, SurfaceCut(source, true, InstructionSet::scalar).keep(id, block, 0xFFFFU));
+      for (const std::uint32_t mask : {0x0001U, 0x8000U, 0x0FF0U, 0xA5A5U})
+        ASSERT_EQ(full_size.keep(id, block, mask), kept & mask);
       for (std::size_t i = 0; i < 16; ++i) {
         const glm::dvec3 w = barycentrics(t, camera.meet(t, first + glm::dvec2(i % 4, i / 4)));
         if (std::min({w.x, w.y, w.z}) < 0) continue;
@@ -446,8 +452,7 @@ TEST_P(SurfacePointsOnEverySet, CutOutsKeepTheSamplesThatReachTheCutoff) {
       const double texels =
           kSide * glm::length(t.uv(0, weights(first + glm::dvec2(1, 0))) - t.uv(0, weights(first)));
       if (texels < 2.5) continue;
-      block.full_size = false;
-      ASSERT_EQ(keep_above_cutoff_for(GetParam())(source, surface, 0.4F, block) & 1U, 0U) << "block " << n;
+      ASSERT_EQ(in_view.keep(id, block, 1U), 0U) << "block " << n;
       ++minified;
     }
     EXPECT_GT(kept_count, asked / 4);
