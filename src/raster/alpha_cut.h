@@ -1,25 +1,30 @@
 // How a material may cut holes into the triangles that are rasterised.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/triangle_clusters.h"
 
 namespace laterna::raster {
 
-/// The 16 samples of a block: sample i lies at (x + i % 4, y + i / 4), in pixels from the view's origin.
-struct BlockSamples {
-  float x, y;
-  const float* reversed_depth;  // 16
+/// Samples of one triangle, in any order, with copies of one up to a multiple of 16: places in pixels from the view's
+/// origin.
+struct CutSamples {
+  static constexpr std::size_t kMost = 256;
+  alignas(64) std::array<float, kMost> x, y, reversed_depth;
+  std::size_t count = 0;
+
+  [[nodiscard]] std::size_t groups() const { return (count + 15) / 16; }
 };
 
 /// Asked during rasterisation about the covered, visible samples of cut-out triangles.
 class AlphaCut {
  public:
   virtual ~AlphaCut() = default;
-  /// Bits of `mask` whose sample the material keeps. Called from several threads at once.
-  [[nodiscard]] virtual std::uint32_t keep(TriangleId id, const BlockSamples& samples,
-                                           std::uint32_t mask) const = 0;
+  /// Sets bit i % 16 of kept[i / 16] where the material keeps sample i. Called from several threads at once.
+  virtual void keep(TriangleId id, const CutSamples& samples, std::uint16_t* kept) const = 0;
 };
 
 }  // namespace laterna::raster

@@ -78,7 +78,7 @@ HWY_INLINE void SetUpEdges(const BinnedTriangle& t, const TileTask& task, Edge* 
 // ---------------------------------------------------------------------------------------------- sinks
 
 // A sink takes the covered samples of a block: `VisitVector` for one vector of lanes, which says whether any was taken,
-// and for cut-outs `Passing` and `Write` with a bit per sample. `Farthest`: the least reversed depth of a block.
+// and for cut-outs `Passing`, what of a vector would be taken, and `Write` for one sample. `Farthest`: the least reversed depth of a block.
 HWY_INLINE float FarthestOf(const float* depth) {
   const FloatTag d;
   auto least = hn::Load(d, depth);
@@ -95,23 +95,16 @@ class DepthSink {
 
   HWY_INLINE bool VisitVector(std::size_t sample, FloatMask inside, FloatVector q) {
     const FloatTag d;
-    const auto old = hn::Load(d, depth_ + sample);
-    const auto passing = hn::And(inside, q > old);
+    const auto passing = Passing(sample, inside, q);
     if (hn::AllFalse(d, passing)) return false;
-    hn::Store(hn::IfThenElse(passing, q, old), d, depth_ + sample);
+    hn::Store(hn::IfThenElse(passing, q, hn::Load(d, depth_ + sample)), d, depth_ + sample);
     return true;
   }
   [[nodiscard]] float Farthest(std::size_t block) const { return FarthestOf(depth_ + block); }
-  std::uint32_t Passing(std::size_t block, const float* q, std::uint32_t mask) const {
-    std::uint32_t passing = 0;
-    for (std::size_t i = 0; i < kBlockPixels; ++i) passing |= std::uint32_t{q[i] > depth_[block + i]} << i;
-    return passing & mask;
+  HWY_INLINE FloatMask Passing(std::size_t sample, FloatMask inside, FloatVector q) const {
+    return hn::And(inside, q > hn::Load(FloatTag(), depth_ + sample));
   }
-  void Write(std::size_t block, const float* q, std::uint32_t mask) {
-    for (std::size_t i = 0; i < kBlockPixels; ++i) {
-      if ((mask >> i & 1U) != 0) depth_[block + i] = q[i];
-    }
-  }
+  void Write(std::size_t sample, float q) { depth_[sample] = q; }
 
  private:
   float* depth_;
@@ -127,39 +120,33 @@ class VisibilitySink {
   HWY_INLINE bool VisitVector(std::size_t sample, FloatMask inside, FloatVector q) {
     const FloatTag d;
     const IntTag di;
-    auto* ids = reinterpret_cast<std::int32_t*>(ids_ + sample);
-    const auto old = hn::Load(d, depth_ + sample);
-    auto passing = hn::And(inside, q >= old);
+    const auto passing = Passing(sample, inside, q);
     if (hn::AllFalse(d, passing)) return false;
-    const auto old_ids = hn::Load(di, ids);
+    auto* ids = reinterpret_cast<std::int32_t*>(ids_ + sample);
     const auto id = hn::Set(di, static_cast<std::int32_t>(id_));
-    const auto tied = hn::And(passing, q == old);
-    if (HWY_UNLIKELY(!hn::AllFalse(d, tied))) {
-      // Unsigned order, so that the background's id, all ones, loses. Flipping the sign bit of both compares so.
-      const auto sign = hn::Set(di, std::int32_t{-0x7FFFFFFF - 1});
-      const auto wins = hn::RebindMask(d, hn::Xor(id, sign) < hn::Xor(old_ids, sign));
-      passing = hn::And(passing, hn::Or(q > old, wins));
-    }
-    hn::Store(hn::IfThenElse(passing, q, old), d, depth_ + sample);
-    hn::Store(hn::IfThenElse(hn::RebindMask(di, passing), id, old_ids), di, ids);
+    hn::Store(hn::IfThenElse(passing, q, hn::Load(d, depth_ + sample)), d, depth_ + sample);
+    hn::Store(hn::IfThenElse(hn::RebindMask(di, passing), id, hn::Load(di, ids)), di, ids);
     return true;
   }
   [[nodiscard]] float Farthest(std::size_t block) const { return FarthestOf(depth_ + block); }
-  std::uint32_t Passing(std::size_t block, const float* q, std::uint32_t mask) const {
-    std::uint32_t passing = 0;
-    for (std::size_t i = 0; i < kBlockPixels; ++i) {
-      const float old = depth_[block + i];
-      const bool passes = q[i] > old || (q[i] == old && id_ < ids_[block + i]);
-      passing |= std::uint32_t{passes} << i;
-    }
-    return passing & mask;
+  HWY_INLINE FloatMask Passing(std::size_t sample, FloatMask inside, FloatVector q) const {
+    const FloatTag d;
+    const IntTag di;
+    const auto old = hn::Load(d, depth_ + sample);
+    const auto passing = hn::And(inside, q >= old);
+    if (hn::AllFalse(d, passing)) return passing;
+    const auto tied = hn::And(passing, q == old);
+    if (HWY_LIKELY(hn::AllFalse(d, tied))) return passing;
+    // Unsigned order, so that the background's id, all ones, loses. Flipping the sign bit of both compares so.
+    const auto sign = hn::Set(di, std::int32_t{-0x7FFFFFFF - 1});
+    const auto id = hn::Set(di, static_cast<std::int32_t>(id_));
+    const auto old_ids = hn::Load(di, reinterpret_cast<const std::int32_t*>(ids_ + sample));
+    const auto wins = hn::RebindMask(d, hn::Xor(id, sign) < hn::Xor(old_ids, sign));
+    return hn::And(passing, hn::Or(q > old, wins));
   }
-  void Write(std::size_t block, const float* q, std::uint32_t mask) {
-    for (std::size_t i = 0; i < kBlockPixels; ++i) {
-      if ((mask >> i & 1U) == 0) continue;
-      depth_[block + i] = q[i];
-      ids_[block + i] = id_;
-    }
+  void Write(std::size_t sample, float q) {
+    depth_[sample] = q;
+    ids_[sample] = id_;
   }
 
  private:
@@ -192,8 +179,8 @@ class FragmentSink {
   // What lies behind an opaque surface is left out by its depth alone.
   [[nodiscard]] float Farthest(std::size_t block) const { return FarthestOf(depth_ + block); }
   // Blended triangles are never cut while rasterising: their alpha weighs them in shading.
-  static std::uint32_t Passing(std::size_t, const float*, std::uint32_t mask) { return mask; }
-  static void Write(std::size_t, const float*, std::uint32_t) {}
+  static HWY_INLINE FloatMask Passing(std::size_t, FloatMask inside, FloatVector) { return inside; }
+  static void Write(std::size_t, float) {}
 
  private:
   const float* depth_;
@@ -385,6 +372,7 @@ class TileRaster {
         } else {
           DrawSmall(t, box);
         }
+        if (HWY_UNLIKELY(asked_.count != 0)) Cut(t.id);
       }
     }
   }
@@ -525,23 +513,44 @@ class TileRaster {
     if (is_covered && !is_taken) farthest_[block] = sink_.Farthest(block * kBlockPixels);
   }
 
+  // Puts the block's samples that would be taken on the list: the cut is asked about a triangle's samples all at once.
   template <class Inside, class Depth>
   HWY_NOINLINE void VisitCutBlock(std::size_t block, int bx, int by, TriangleId id, const Inside& inside,
                                   const Depth& depth) {
     const FloatTag d;
-    alignas(64) float q[kBlockPixels];
-    std::uint32_t mask = 0;
+    const IntTag di;
+    if (asked_.count > CutSamples::kMost - kBlockPixels) Cut(id);
+    const auto x = hn::Set(d, static_cast<float>(tile_x_ + bx + sample_x_)),
+               y = hn::Set(d, static_cast<float>(tile_y_ + by + sample_y_));
     for (std::size_t k = 0; k < kVectors; ++k) {
-      std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(d, inside(k), bits);
-      mask |= (bits[0] | std::uint32_t{bits[1]} << 8U) << (k * kLanes);
-      hn::Store(depth(k), d, q + k * kLanes);
+      const std::size_t sample = block + k * kLanes;
+      const auto covered = inside(k);
+      if (hn::AllFalse(d, covered)) continue;
+      const auto q = depth(k);
+      const auto passing = sink_.Passing(sample, covered, q);
+      const std::size_t end = asked_.count;
+      hn::CompressStore(x + hn::Load(d, kLaneX + k * kLanes), passing, d, asked_.x.data() + end);
+      hn::CompressStore(y + hn::Load(d, kLaneY + k * kLanes), passing, d, asked_.y.data() + end);
+      hn::CompressStore(hn::Iota(di, static_cast<std::int32_t>(sample)), hn::RebindMask(di, passing), di,
+                        asked_samples_.data() + end);
+      asked_.count += hn::CompressStore(q, passing, d, asked_.reversed_depth.data() + end);
     }
-    mask = sink_.Passing(block, q, mask);
-    if (mask == 0) return;
-    const BlockSamples samples = {static_cast<float>(tile_x_ + bx + sample_x_),
-                                  static_cast<float>(tile_y_ + by + sample_y_), q};
-    sink_.Write(block, q, task_.cut->keep(id, samples, mask));
+  }
+
+  // Draws what the cut keeps of the list.
+  HWY_NOINLINE void Cut(TriangleId id) {
+    for (std::size_t i = asked_.count; i < asked_.groups() * 16; ++i) {
+      asked_.x[i] = asked_.x[0];
+      asked_.y[i] = asked_.y[0];
+      asked_.reversed_depth[i] = asked_.reversed_depth[0];
+    }
+    std::array<std::uint16_t, CutSamples::kMost / 16> kept;
+    task_.cut->keep(id, asked_, kept.data());
+    for (std::size_t i = 0; i < asked_.count; ++i) {
+      if ((kept[i / 16] >> (i % 16) & 1U) == 0) continue;
+      sink_.Write(static_cast<std::size_t>(asked_samples_[i]), asked_.reversed_depth[i]);
+    }
+    asked_.count = 0;
   }
 
   const TileTask& task_;
@@ -549,6 +558,8 @@ class TileRaster {
   int tile_x_, tile_y_;                  // first pixel of the tile, from the view's origin
   double sample_x_, sample_y_;           // of the sample within its pixel
   alignas(64) float farthest_[kBlocks];  // every sample of the block is at least this near
+  CutSamples asked_;                     // of the triangle that is being drawn, if it is cut
+  alignas(64) std::array<std::int32_t, CutSamples::kMost> asked_samples_;  // where they lie in the tile
 };
 
 void rasterise_depth(const TileTask& task, float* depth) {

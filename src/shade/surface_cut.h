@@ -16,9 +16,9 @@ struct CutSource {
   bool full_size;
 };
 
-/// Of the samples in `mask` of a rasterised block, those whose alpha reaches the material's cutoff.
-using KeepAboveCutoff = std::uint32_t (*)(const CutSource& source, TriangleId id,
-                                          const raster::BlockSamples& samples, std::uint32_t mask);
+/// AlphaCut::keep() by the material's cutoff.
+using KeepAboveCutoff = void (*)(const CutSource& source, TriangleId id, const raster::CutSamples& samples,
+                                 std::uint16_t* kept);
 KeepAboveCutoff keep_above_cutoff_for(InstructionSet set);
 
 /// Keeps samples whose alpha reaches the material's cutoff; of blended surfaces, where they are drawn as cut-outs
@@ -28,9 +28,8 @@ class SurfaceCut final : public raster::AlphaCut {
   SurfaceCut(const PointSource& source, bool full_size, InstructionSet set)
       : source_{source, PixelRays(*source.view), full_size}, keep_above_cutoff_(keep_above_cutoff_for(set)) {}
 
-  [[nodiscard]] std::uint32_t keep(TriangleId id, const raster::BlockSamples& samples,
-                                   std::uint32_t mask) const override {
-    return keep_above_cutoff_(source_, id, samples, mask);
+  void keep(TriangleId id, const raster::CutSamples& samples, std::uint16_t* kept) const override {
+    keep_above_cutoff_(source_, id, samples, kept);
   }
 
  private:

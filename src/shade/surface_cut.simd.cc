@@ -1,4 +1,4 @@
-// Which samples of a cut-out's block are no holes.
+// Which samples of a cut-out are no holes.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shade/surface_cut.simd.cc"
 #include "base/simd.h"
@@ -17,43 +17,36 @@ namespace laterna::shade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 
-alignas(64) constexpr float kBlockX[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-alignas(64) constexpr float kBlockY[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-alignas(64) constexpr std::int32_t kBit[16] = {1 << 0,  1 << 1,  1 << 2,  1 << 3, 1 << 4,  1 << 5,
-                                               1 << 6,  1 << 7,  1 << 8,  1 << 9, 1 << 10, 1 << 11,
-                                               1 << 12, 1 << 13, 1 << 14, 1 << 15};
-
-std::uint32_t keep_above_cutoff(const CutSource& source, TriangleId id, const raster::BlockSamples& samples,
-                                std::uint32_t mask) {
+// Bits of samples i … i + kLanes − 1.
+HWY_INLINE std::uint32_t FindKept(const CutSource& source, const frame::Surface& surface,
+                                  const frame::HWY_NAMESPACE::TriangleCorners<true>& corners,
+                                  const Facet& facet, const raster::CutSamples& samples, std::size_t i) {
   const FloatTag d;
-  const IntTag di;
+  const Hit hit =
+      FindHit(source.rays, facet, hn::Load(d, samples.x.data() + i), hn::Load(d, samples.y.data() + i),
+              hn::Load(d, samples.reversed_depth.data() + i), source.points.interpolation);
+  const frame::Frame& frame = *source.points.frame;
+  const auto alpha =
+      source.full_size
+          ? frame::HWY_NAMESPACE::AlphaAtFullSize(frame, surface, corners, hit.weights)
+          : frame::HWY_NAMESPACE::AlphaInView(frame, surface, corners, hit.weights, source.points.anisotropy);
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, alpha >= Splat(frame::cutoff_of(surface)), bytes);
+  return bytes[0] | std::uint32_t{bytes[1]} << 8U;
+}
+
+void keep_above_cutoff(const CutSource& source, TriangleId id, const raster::CutSamples& samples,
+                       std::uint16_t* kept) {
   const frame::Frame& frame = *source.points.frame;
   const frame::Surface& surface = frame.surfaces[frame.clusters[cluster_of(id)].material];
   const frame::HWY_NAMESPACE::TriangleCorners<true> corners(frame, &id);
   const Facet facet = FindFacet(source.rays, corners.Positions());
-  // Samples that are not asked about become copies of one that is: they read no texels of their own.
-  const auto first = static_cast<std::size_t>(__builtin_ctz(mask));
-  const auto first_x = Splat(kBlockX[first]), first_y = Splat(kBlockY[first]),
-             first_q = Splat(samples.reversed_depth[first]);
-  std::uint32_t kept = 0;
-  for (std::size_t k = 0; k < shadow::kGroupSize; k += kLanes) {
-    if ((mask >> k & ((1U << kLanes) - 1)) == 0) continue;
-    const auto bits = hn::And(SplatInt(static_cast<std::int32_t>(mask)), hn::Load(di, kBit + k));
-    const auto is_asked = hn::RebindMask(d, bits != hn::Zero(di));
-    const auto x = hn::IfThenElse(is_asked, hn::Load(d, kBlockX + k), first_x);
-    const auto y = hn::IfThenElse(is_asked, hn::Load(d, kBlockY + k), first_y);
-    const auto q = hn::IfThenElse(is_asked, hn::LoadU(d, samples.reversed_depth + k), first_q);
-    const Hit hit = FindHit(source.rays, facet, Splat(samples.x) + x, Splat(samples.y) + y, q,
-                            source.points.interpolation);
-    const auto alpha = source.full_size
-                           ? frame::HWY_NAMESPACE::AlphaAtFullSize(frame, surface, corners, hit.weights)
-                           : frame::HWY_NAMESPACE::AlphaInView(frame, surface, corners, hit.weights,
-                                                               source.points.anisotropy);
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, alpha >= Splat(frame::cutoff_of(surface)), bytes);
-    kept |= (bytes[0] | std::uint32_t{bytes[1]} << 8U) << k;
+  for (std::size_t group = 0; group < samples.groups(); ++group) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 16; k += kLanes)
+      bits |= FindKept(source, surface, corners, facet, samples, group * 16 + k) << k;
+    kept[group] = static_cast<std::uint16_t>(bits);
   }
-  return kept & mask;
 }
 
 }  // namespace laterna::shade::HWY_NAMESPACE

@@ -217,18 +217,16 @@ TEST_P(RasterSinks, NothingIsDrawnBeforeTheNearOrBeyondTheFarPlane) {
 // Keeps every other sample, and remembers what it was asked.
 class CheckerCut final : public AlphaCut {
  public:
-  [[nodiscard]] std::uint32_t keep(TriangleId, const BlockSamples& samples,
-                                   std::uint32_t mask) const override {
-    EXPECT_NE(mask, 0U);
-    asked += __builtin_popcount(mask);
-    std::uint32_t kept = 0;
-    for (int i = 0; i < kBlockPixels; ++i) {
-      const auto x = static_cast<int>(std::floor(samples.x)) + i % 4,
-                 y = static_cast<int>(std::floor(samples.y)) + i / 4;
-      if ((x + y) % 2 == 0) kept |= 1U << i;
-      EXPECT_TRUE((mask >> i & 1U) == 0 || samples.reversed_depth[i] > 0);
+  void keep(TriangleId, const CutSamples& samples, std::uint16_t* kept) const override {
+    EXPECT_NE(samples.count, 0U);
+    asked += static_cast<int>(samples.count);
+    for (std::size_t i = 0; i < samples.groups() * 16; ++i) {
+      if (i % 16 == 0) kept[i / 16] = 0;
+      const auto x = static_cast<int>(std::floor(samples.x[i])),
+                 y = static_cast<int>(std::floor(samples.y[i]));
+      if ((x + y) % 2 == 0) kept[i / 16] = static_cast<std::uint16_t>(kept[i / 16] | 1U << (i % 16));
+      EXPECT_GT(samples.reversed_depth[i], 0);
     }
-    return mask & kept;
   }
   mutable int asked = 0;
 };

@@ -411,6 +411,12 @@ TEST_P(SurfacePointsOnEverySet, AlphaIsTheProductOfFactorVertexAndTexture) {
   }
 }
 
+std::uint32_t kept_of(const SurfaceCut& cut, TriangleId id, const raster::CutSamples& samples) {
+  std::uint16_t kept = 0;
+  cut.keep(id, samples, &kept);
+  return kept;
+}
+
 TEST_P(SurfacePointsOnEverySet, CutOutsKeepTheSamplesThatReachTheCutoff) {
   reference::OwnedFrame owned = random_triangles();
   for (const bool is_orthographic : {false, true}) {
@@ -428,15 +434,16 @@ TEST_P(SurfacePointsOnEverySet, CutOutsKeepTheSamplesThatReachTheCutoff) {
       const TriangleId id = s.samples->id[n];
       const Triangle t(owned.frame, id);
       const glm::dvec2 first(s.samples->x[n], s.samples->y[n]);
-      float q[16];
+      raster::CutSamples block;
+      block.count = 16;
       for (std::size_t i = 0; i < 16; ++i) {
-        q[i] = static_cast<float>(camera.reversed(camera.meet(t, first + glm::dvec2(i % 4, i / 4))));
+        block.x[i] = s.samples->x[n] + static_cast<float>(i % 4);
+        block.y[i] = s.samples->y[n] + static_cast<float>(i / 4);
+        block.reversed_depth[i] =
+            static_cast<float>(camera.reversed(camera.meet(t, first + glm::dvec2(i % 4, i / 4))));
       }
-      const raster::BlockSamples block = {s.samples->x[n], s.samples->y[n], q};
-      const std::uint32_t kept = full_size.keep(id, block, 0xFFFFU);
-      ASSERT_EQ(kept, SurfaceCut(source, true, InstructionSet::scalar).keep(id, block, 0xFFFFU));
-      for (const std::uint32_t mask : {0x0001U, 0x8000U, 0x0FF0U, 0xA5A5U})
-        ASSERT_EQ(full_size.keep(id, block, mask), kept & mask);
+      const std::uint32_t kept = kept_of(full_size, id, block);
+      ASSERT_EQ(kept, kept_of(SurfaceCut(source, true, InstructionSet::scalar), id, block));
       for (std::size_t i = 0; i < 16; ++i) {
         const glm::dvec3 w = barycentrics(t, camera.meet(t, first + glm::dvec2(i % 4, i / 4)));
         if (std::min({w.x, w.y, w.z}) < 0) continue;
@@ -452,12 +459,46 @@ TEST_P(SurfacePointsOnEverySet, CutOutsKeepTheSamplesThatReachTheCutoff) {
       const double texels =
           kSide * glm::length(t.uv(0, weights(first + glm::dvec2(1, 0))) - t.uv(0, weights(first)));
       if (texels < 2.5) continue;
-      ASSERT_EQ(in_view.keep(id, block, 1U), 0U) << "block " << n;
+      ASSERT_EQ(kept_of(in_view, id, block) & 1U, 0U) << "block " << n;
       ++minified;
     }
     EXPECT_GT(kept_count, asked / 4);
     EXPECT_LT(kept_count, asked * 3 / 4);
     EXPECT_GT(minified, 5);
+  }
+}
+
+TEST_P(SurfacePointsOnEverySet, CutsManySamplesAsItCutsFew) {
+  reference::OwnedFrame owned = random_triangles();
+  const Camera camera(false);
+  const Samples s = random_samples(owned.frame, camera, 12);
+  Surface surface;
+  surface.alpha_mode = AlphaMode::mask;
+  surface.base_color_texture = {&coordinate_meter(), {}, 0, {1, 0, 0, 0, 1, 0}};
+  surface.alpha_cutoff = 0.4F;
+  std::fill(owned.frame.surfaces.begin(), owned.frame.surfaces.end(), surface);
+  const PointSource source = {&owned.frame, &camera.raster, Interpolation::perspective, 1};
+  const SurfaceCut cut(source, true, GetParam());
+  // Every other group of samples lies on one triangle.
+  for (std::size_t first = 0; first < kMaxSamples; first += 2 * kGroupSize) {
+    raster::CutSamples many;
+    many.count = 3 * kGroupSize + 5;
+    for (std::size_t i = 0; i < many.groups() * kGroupSize; ++i) {
+      const std::size_t from = first + (i < many.count ? i * 7 % kGroupSize : 0);
+      many.x[i] = s.samples->x[from];
+      many.y[i] = s.samples->y[from];
+      many.reversed_depth[i] = s.samples->q[from];
+    }
+    std::uint16_t kept[4] = {};
+    cut.keep(s.samples->id[first], many, kept);
+    for (std::size_t i = 0; i < many.count; ++i) {
+      raster::CutSamples one;
+      one.count = 1;
+      one.x.fill(s.samples->x[first + i * 7 % kGroupSize]);
+      one.y.fill(s.samples->y[first + i * 7 % kGroupSize]);
+      one.reversed_depth.fill(s.samples->q[first + i * 7 % kGroupSize]);
+      ASSERT_EQ(kept[i / 16] >> (i % 16) & 1U, kept_of(cut, s.samples->id[first], one) & 1U) << i;
+    }
   }
 }
 
