@@ -61,7 +61,7 @@ struct Edge {
   std::int64_t c;
 };
 
-HWY_INLINE void SetUpEdges(const BinnedTriangle& t, const TileTask& task, Edge* edges) {
+HWY_INLINE void SetUpEdges(const WideTriangle& t, const TileTask& task, Edge* edges) {
   const int sample_x = kSubpixels / 2 + task.offset_x;
   const int sample_y = kSubpixels / 2 + task.offset_y;
   for (int i = 0; i < 3; ++i) {
@@ -199,16 +199,16 @@ struct PixelBox {
 // Depth of a wide triangle, in double until the last rounding.
 class WideDepth {
  public:
-  WideDepth(const BinnedTriangle& t, const WidePlane& plane, double x, double y)
-      : plane_(plane), y_(y), q_min_(t.q_min), q_max_(t.q_max) {
+  WideDepth(const WideTriangle& t, double x, double y)
+      : q_dy_(t.q_dy), y_(y), q_min_(t.q_min), q_max_(t.q_max) {
     const DoubleTag dd;
-    const auto q_dx = hn::Set(dd, plane.q_dx), q_dy = hn::Set(dd, plane.q_dy);
+    const auto q_dx = hn::Set(dd, t.q_dx), q_dy = hn::Set(dd, t.q_dy);
     for (std::size_t k = 0; k < kDoubles; ++k) {
       const std::size_t i = k * hn::MaxLanes(dd);
       lane_[k] = q_dx * hn::Load(dd, kLaneXDouble + i) + q_dy * hn::Load(dd, kLaneYDouble + i);
-      column_[k] = hn::Set(dd, plane.q_0) + q_dx * (hn::Set(dd, x) + hn::Load(dd, kBlockColumn + i));
+      column_[k] = hn::Set(dd, t.q_0) + q_dx * (hn::Set(dd, x) + hn::Load(dd, kBlockColumn + i));
     }
-    const double reach_x = plane.q_dx * (kBlockSide - 1), reach_y = plane.q_dy * (kBlockSide - 1);
+    const double reach_x = t.q_dx * (kBlockSide - 1), reach_y = t.q_dy * (kBlockSide - 1);
     reach_high_ = static_cast<float>(std::max(reach_x, 0.0) + std::max(reach_y, 0.0));
     reach_low_ = static_cast<float>(std::min(reach_x, 0.0) + std::min(reach_y, 0.0));
   }
@@ -221,7 +221,7 @@ class WideDepth {
   HWY_INLINE Bounds EnterRow(int by) {
     const FloatTag d;
     const DoubleTag dd;
-    const auto y_part = hn::Set(dd, plane_.q_dy * (y_ + by));
+    const auto y_part = hn::Set(dd, q_dy_ * (y_ + by));
     hn::Vec<DoubleTag> first[kDoubles];
     for (std::size_t k = 0; k < kDoubles; ++k) {
       first[k] = column_[k] + y_part;
@@ -267,7 +267,7 @@ class WideDepth {
     return hn::Min(hn::Max(q, hn::Set(d, q_min_)), hn::Set(d, q_max_));
   }
 
-  WidePlane plane_;
+  double q_dy_;
   double y_;  // of the tile's first sample
   float q_min_, q_max_;
   float reach_high_, reach_low_;         // from a block's first sample to its others
@@ -351,43 +351,42 @@ class TileRaster {
         sink_(sink),
         tile_x_(task.tile_x * kTileSide - task.view->origin_x),
         tile_y_(task.tile_y * kTileSide - task.view->origin_y),
-        sample_x_(0.5 + task.offset_x / double{kSubpixels}),
-        sample_y_(0.5 + task.offset_y / double{kSubpixels}) {
+        offset_x_(static_cast<float>(task.offset_x) / kSubpixels),
+        offset_y_(static_cast<float>(task.offset_y) / kSubpixels) {
     std::fill_n(farthest_, kBlocks, task.view->reversed_far);
   }
 
   void DrawAll() {
     for (const Batch& batch : task_.batches) {
-      const std::span<const std::uint32_t> triangles = batch.in_tile(task_.tile_x, task_.tile_y);
-      for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const std::size_t ahead = std::min(i + kPrefetched, triangles.size() - 1);
-        hwy::Prefetch(&batch.triangles[triangles[ahead]]);
-        const BinnedTriangle& t = batch.triangles[triangles[i]];
-        if (!Sink::Takes(t.kind)) continue;
-        sink_.Begin(t.id);
-        const PixelBox box = BoxOf(t);
-        if (box.IsEmpty()) continue;
-        if ((t.kind & kWide) != 0) {
-          DrawWide(t, box, batch.planes[t.plane]);
-        } else {
-          DrawSmall(t, box);
-        }
-        if (HWY_UNLIKELY(asked_.count != 0)) Cut(t.id);
-      }
+      DrawEach<WideTriangle>(batch.wide, batch.wide_by_tile,
+                             [&](const WideTriangle& t) HWY_ATTR { DrawWide(t); });
+      DrawEach<SmallTriangle>(batch.small, batch.small_by_tile,
+                              [&](const SmallTriangle& t) HWY_ATTR { DrawSmall(t); });
     }
   }
 
  private:
   static constexpr std::size_t kBlocks = std::size_t{kBlocksPerSide} * kBlocksPerSide;
-  static constexpr std::size_t kPrefetched = 4;  // triangles
+  static constexpr std::size_t kPrefetched = 8;  // triangles
 
-  // Whether the alpha cut must be asked about this triangle.
-  [[nodiscard]] bool IsCut(const BinnedTriangle& t) const {
-    return (t.kind & kMasked) != 0 && task_.cut != nullptr;
+  template <class Triangle, class Draw>
+  HWY_INLINE void DrawEach(std::span<const Triangle> triangles, const TileLists& by_tile, Draw draw) {
+    const std::span<const std::uint32_t> here = by_tile.in_tile(task_.tile_x, task_.tile_y);
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      hwy::Prefetch(&triangles[here[std::min(i + kPrefetched, here.size() - 1)]]);
+      const Triangle& t = triangles[here[i]];
+      if (!Sink::Takes(t.kind)) continue;
+      sink_.Begin(t.id);
+      draw(t);
+      if (HWY_UNLIKELY(asked_.count != 0)) Cut(t.id);
+    }
   }
 
+  // Whether the alpha cut must be asked about triangles of this kind.
+  [[nodiscard]] bool IsCut(std::uint32_t kind) const { return (kind & kMasked) != 0 && task_.cut != nullptr; }
+
   // First and last pixel of the bounding box whose sample may be covered, within the tile.
-  [[nodiscard]] PixelBox BoxOf(const BinnedTriangle& t) const {
+  [[nodiscard]] PixelBox BoxOf(const WideTriangle& t) const {
     const auto first = [](const std::int32_t* v, int offset, int tile) {
       return std::max(((std::min({v[0], v[1], v[2]}) + kSubpixels / 2 - 1 - offset) >> kSubpixelBits) - tile,
                       0);
@@ -400,55 +399,82 @@ class TileRaster {
             first(t.y, task_.offset_y, tile_y_), last(t.y, task_.offset_y, tile_y_)};
   }
 
-  void DrawSmall(const BinnedTriangle& t, const PixelBox& box) {
+  // The edge functions over the first block of a small triangle, and their change from block to block, in pixels. All
+  // are whole numbers below 2²⁴ in magnitude: exact in float.
+  struct SmallEdges {
+    FloatVector at[3][kVectors], dx[3], dy[3];
+  };
+
+  // (x, y): from the triangle's first pixel to the block's, in pixels.
+  HWY_INLINE SmallEdges EdgesOf(const SmallTriangle& t, int x, int y) const {
     const FloatTag d;
-    Edge edges[3];
-    SetUpEdges(t, task_, edges);
-    FloatVector lane_e[3][kVectors];
+    SmallEdges edges;
+    float dx[3] = {t.edge_dx[0], t.edge_dx[1], -(t.edge_dx[0] + t.edge_dx[1])};
+    float dy[3] = {t.edge_dy[0], t.edge_dy[1], -(t.edge_dy[0] + t.edge_dy[1])};
+    for (int i = 0; i < 3; ++i) {
+      const int shift = static_cast<int>(dx[i]) * task_.offset_x + static_cast<int>(dy[i]) * task_.offset_y;
+      const float at = static_cast<float>((t.edge[i] + shift) >> kSubpixelBits) +
+                       (dx[i] * static_cast<float>(x) + dy[i] * static_cast<float>(y));
+      const auto dx_lanes = hn::Set(d, dx[i]), dy_lanes = hn::Set(d, dy[i]);
+      for (std::size_t k = 0; k < kVectors; ++k) {
+        edges.at[i][k] = hn::Set(d, at) + (dx_lanes * hn::Load(d, kLaneX + k * kLanes) +
+                                           dy_lanes * hn::Load(d, kLaneY + k * kLanes));
+      }
+      edges.dx[i] = dx_lanes * hn::Set(d, kBlockSide);
+      edges.dy[i] = dy_lanes * hn::Set(d, kBlockSide);
+    }
+    return edges;
+  }
+
+  void DrawSmall(const SmallTriangle& t) {
+    const FloatTag d;
+    const int x = t.x - tile_x_, y = t.y - tile_y_;  // in the tile
+    const int x_first = std::max(x, 0) & ~3, x_end = std::min(x + t.columns, kTileSide);
+    const int y_first = std::max(y, 0) & ~3, y_end = std::min(y + t.rows, kTileSide);
+    SmallEdges edges = EdgesOf(t, x_first - x, y_first - y);
     FloatVector lane_q[kVectors];
     for (std::size_t k = 0; k < kVectors; ++k) {
-      const auto lane_x = hn::Load(d, kLaneX + k * kLanes), lane_y = hn::Load(d, kLaneY + k * kLanes);
-      for (int i = 0; i < 3; ++i) {
-        lane_e[i][k] = hn::Set(d, static_cast<float>(edges[i].a)) * lane_x +
-                       hn::Set(d, static_cast<float>(edges[i].b)) * lane_y;
-      }
-      lane_q[k] = hn::Set(d, t.q_dx) * lane_x + hn::Set(d, t.q_dy) * lane_y;
+      lane_q[k] = hn::Set(d, t.q_dx) * hn::Load(d, kLaneX + k * kLanes) +
+                  hn::Set(d, t.q_dy) * hn::Load(d, kLaneY + k * kLanes);
     }
     const auto q_min = hn::Set(d, t.q_min), q_max = hn::Set(d, t.q_max);
-    const bool is_cut = IsCut(t);
-    for (int by = box.y_first & ~3; by <= box.y_last; by += kBlockSide) {
-      for (int bx = box.x_first & ~3; bx <= box.x_last; bx += kBlockSide) {
-        const std::size_t block = BlockAt(bx, by);
-        if (t.q_max < farthest_[block]) continue;
-        // Below 2²⁴ in magnitude for a small triangle near its bounding box: exact in float.
-        float e[3];
-        for (int i = 0; i < 3; ++i) {
-          e[i] = static_cast<float>(std::int64_t{edges[i].a} * (tile_x_ + bx) +
-                                    std::int64_t{edges[i].b} * (tile_y_ + by) + edges[i].c);
+    const bool is_cut = IsCut(t.kind);
+    for (int by = y_first; by < y_end; by += kBlockSide) {
+      FloatVector e[3][kVectors];
+      for (int i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < kVectors; ++k) {
+          e[i][k] = edges.at[i][k];
+          edges.at[i][k] = edges.at[i][k] + edges.dy[i];
         }
-        const float q =
-            t.base_q +
-            t.q_dx * (static_cast<float>(tile_x_ + bx) + static_cast<float>(sample_x_) - t.base_x) +
-            t.q_dy * (static_cast<float>(tile_y_ + by) + static_cast<float>(sample_y_) - t.base_y);
-        const auto inside = [&](std::size_t k) HWY_ATTR {
-          const auto lowest =
-              hn::Min(hn::Min(hn::Set(d, e[0]) + lane_e[0][k], hn::Set(d, e[1]) + lane_e[1][k]),
-                      hn::Set(d, e[2]) + lane_e[2][k]);
-          return lowest >= hn::Zero(d);
-        };
-        const auto depth = [&](std::size_t k)
-                               HWY_ATTR { return hn::Min(hn::Max(hn::Set(d, q) + lane_q[k], q_min), q_max); };
-        VisitBlock(block, bx, by, t.id, is_cut, inside, depth);
+      }
+      const float q_row = t.q + t.q_dy * (static_cast<float>(by - y) + offset_y_);
+      for (int bx = x_first; bx < x_end; bx += kBlockSide) {
+        const std::size_t block = BlockAt(bx, by);
+        if (t.q_max >= farthest_[block]) {
+          const float q = q_row + t.q_dx * (static_cast<float>(bx - x) + offset_x_);
+          const auto inside = [&](std::size_t k) HWY_ATTR {
+            return hn::Min(hn::Min(e[0][k], e[1][k]), e[2][k]) >= hn::Zero(d);
+          };
+          const auto depth = [&](std::size_t k) HWY_ATTR {
+            return hn::Min(hn::Max(hn::Set(d, q) + lane_q[k], q_min), q_max);
+          };
+          VisitBlock(block, bx, by, t.id, is_cut, inside, depth);
+        }
+        for (int i = 0; i < 3; ++i) {
+          for (std::size_t k = 0; k < kVectors; ++k) e[i][k] = e[i][k] + edges.dx[i];
+        }
       }
     }
   }
 
-  void DrawWide(const BinnedTriangle& t, const PixelBox& box, const WidePlane& plane) {
+  void DrawWide(const WideTriangle& t) {
+    const PixelBox box = BoxOf(t);
+    if (box.IsEmpty()) return;
     Edge edges[3];
     SetUpEdges(t, task_, edges);
     const int by_first = box.y_first & ~3;
     WideEdges wide_edges(edges, tile_x_, tile_y_, by_first);
-    WideDepth depth(t, plane, tile_x_ + sample_x_, tile_y_ + sample_y_);
+    WideDepth depth(t, tile_x_ + 0.5 + offset_x_, tile_y_ + 0.5 + offset_y_);
     const std::uint32_t columns = (2U << (box.x_last >> 2)) - (1U << (box.x_first >> 2));
     for (int by = by_first; by <= box.y_last; by += kBlockSide) {
       const WideEdges::Row row = wide_edges.Enter();
@@ -459,12 +485,12 @@ class TileRaster {
     }
   }
 
-  void DrawRow(const BinnedTriangle& t, int by, const WideEdges& edges, const WideEdges::Row& row,
+  void DrawRow(const WideTriangle& t, int by, const WideEdges& edges, const WideEdges::Row& row,
                WideDepth& depth) {
     const FloatTag d;
     const std::size_t first = BlockAt(0, by);
     const WideDepth::Bounds bounds = depth.EnterRow(by);
-    const bool is_cut = IsCut(t);
+    const bool is_cut = IsCut(t.kind);
     std::uint32_t hidden = 0;
     for (std::size_t k = 0; k < kVectors; ++k) {
       const auto farthest = hn::Load(d, farthest_ + first + k * kLanes);
@@ -520,8 +546,8 @@ class TileRaster {
     const FloatTag d;
     const IntTag di;
     if (asked_.count > CutSamples::kMost - kBlockPixels) Cut(id);
-    const auto x = hn::Set(d, static_cast<float>(tile_x_ + bx + sample_x_)),
-               y = hn::Set(d, static_cast<float>(tile_y_ + by + sample_y_));
+    const auto x = hn::Set(d, static_cast<float>(tile_x_ + bx) + (0.5F + offset_x_)),
+               y = hn::Set(d, static_cast<float>(tile_y_ + by) + (0.5F + offset_y_));
     for (std::size_t k = 0; k < kVectors; ++k) {
       const std::size_t sample = block + k * kLanes;
       const auto covered = inside(k);
@@ -556,7 +582,7 @@ class TileRaster {
   const TileTask& task_;
   Sink sink_;
   int tile_x_, tile_y_;                  // first pixel of the tile, from the view's origin
-  double sample_x_, sample_y_;           // of the sample within its pixel
+  float offset_x_, offset_y_;            // of the sample from its pixel's centre
   alignas(64) float farthest_[kBlocks];  // every sample of the block is at least this near
   CutSamples asked_;                     // of the triangle that is being drawn, if it is cut
   alignas(64) std::array<std::int32_t, CutSamples::kMost> asked_samples_;  // where they lie in the tile

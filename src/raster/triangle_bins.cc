@@ -77,7 +77,14 @@ class ClusterPlacer {
   Halfspace near_, far_;
 };
 
-Rect tiles_of(const BinnedTriangle& t, const RasterView& view, const Rect& pixels, int reach) {
+Rect tiles_of(const SmallTriangle& t, const RasterView& view, const Rect& pixels, int) {
+  const int x = t.x + view.origin_x, y = t.y + view.origin_y;
+  return {std::max(x, pixels.x_begin) >> kTileBits, std::max(y, pixels.y_begin) >> kTileBits,
+          ((std::min(x + t.columns, pixels.x_end) - 1) >> kTileBits) + 1,
+          ((std::min(y + t.rows, pixels.y_end) - 1) >> kTileBits) + 1};
+}
+
+Rect tiles_of(const WideTriangle& t, const RasterView& view, const Rect& pixels, int reach) {
   const auto first = [&](const std::int32_t* v, int origin, int begin) {
     const int low = std::min({v[0], v[1], v[2]});
     return std::max(((low + kSubpixels / 2 - 1 - reach) >> kSubpixelBits) + origin, begin) >> kTileBits;
@@ -94,7 +101,7 @@ Rect tiles_of(const BinnedTriangle& t, const RasterView& view, const Rect& pixel
 // not. Exact up to rounding, which is paid for by a margin of two pixels.
 class TileRejector {
  public:
-  TileRejector(const BinnedTriangle& t, const RasterView& view) {
+  TileRejector(const WideTriangle& t, const RasterView& view) {
     for (int i = 0; i < 3; ++i) {
       const int j = i == 2 ? 0 : i + 1;
       const double a = t.y[i] - t.y[j];
@@ -122,17 +129,19 @@ class TileRejector {
 };
 
 template <class Visit>
-void for_each_tile(const BinnedTriangle& t, const RasterView& view, const Rect& tiles, Visit visit) {
-  if (tiles.width() * tiles.height() <= 2) {
-    for (int y = tiles.y_begin; y < tiles.y_end; ++y) {
-      for (int x = tiles.x_begin; x < tiles.x_end; ++x) visit(x, y);
-    }
-    return;
+void for_each_tile(const SmallTriangle&, const RasterView&, const Rect& tiles, Visit visit) {
+  for (int y = tiles.y_begin; y < tiles.y_end; ++y) {
+    for (int x = tiles.x_begin; x < tiles.x_end; ++x) visit(x, y);
   }
+}
+
+template <class Visit>
+void for_each_tile(const WideTriangle& t, const RasterView& view, const Rect& tiles, Visit visit) {
+  const bool is_in_few = tiles.width() * tiles.height() <= 2;
   const TileRejector rejector(t, view);
   for (int y = tiles.y_begin; y < tiles.y_end; ++y) {
     for (int x = tiles.x_begin; x < tiles.x_end; ++x) {
-      if (rejector.may_touch(x, y)) visit(x, y);
+      if (is_in_few || rejector.may_touch(x, y)) visit(x, y);
     }
   }
 }
@@ -144,13 +153,14 @@ struct TileEntry {
 };
 
 // Every tile of every triangle, in drawing order, and their bounds.
-Rect find_tile_entries(const Batch& batch, const RasterView& view, const BinOptions& options,
+template <class Triangle>
+Rect find_tile_entries(std::span<const Triangle> triangles, const RasterView& view, const BinOptions& options,
                        std::vector<TileEntry>& entries) {
   entries.clear();
-  if (batch.triangles.empty()) return {};
+  if (triangles.empty()) return {};
   Rect all = {1 << 20, 1 << 20, 0, 0};
-  for (std::uint32_t i = 0; i < batch.triangles.size(); ++i) {
-    const BinnedTriangle& t = batch.triangles[i];
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& t = triangles[i];
     const Rect tiles = tiles_of(t, view, options.pixels, options.sample_reach);
     all = {std::min(all.x_begin, tiles.x_begin), std::min(all.y_begin, tiles.y_begin),
            std::max(all.x_end, tiles.x_end), std::max(all.y_end, tiles.y_end)};
@@ -161,23 +171,24 @@ Rect find_tile_entries(const Batch& batch, const RasterView& view, const BinOpti
   return all;
 }
 
-// Counting sort of the batch's triangles by tile, stable: drawing order is kept within each tile. `found`: scratch.
-void sort_by_tile(Batch& batch, const RasterView& view, const BinOptions& options,
-                  std::vector<TileEntry>& found) {
-  batch.tiles = find_tile_entries(batch, view, options, found);
-  const Rect& all = batch.tiles;
+// Counting sort by tile, stable: drawing order is kept within each tile. `found`: scratch.
+template <class Triangle>
+void sort_by_tile(std::span<const Triangle> triangles, const RasterView& view, const BinOptions& options,
+                  std::vector<TileEntry>& found, TileLists& lists) {
+  lists.tiles = find_tile_entries(triangles, view, options, found);
+  const Rect& all = lists.tiles;
   const auto tile_index = [&](const TileEntry& entry) {
     return static_cast<std::size_t>((entry.y - all.y_begin) * all.width() + entry.x - all.x_begin);
   };
   // Shifted by one place, the counts become where each tile starts, and then, entry by entry, where it ends: which is
   // where the next one starts.
-  batch.offsets.assign(static_cast<std::size_t>(all.width() * all.height()) + 2, 0);
-  std::uint32_t* next = batch.offsets.data() + 1;
-  for (const TileEntry& entry : found) ++batch.offsets[tile_index(entry) + 2];
-  for (std::size_t i = 2; i < batch.offsets.size(); ++i) batch.offsets[i] += batch.offsets[i - 1];
-  batch.entries.resize(found.size());
-  for (const TileEntry& entry : found) batch.entries[next[tile_index(entry)]++] = entry.triangle;
-  batch.offsets.pop_back();
+  lists.offsets.assign(static_cast<std::size_t>(all.width() * all.height()) + 2, 0);
+  std::uint32_t* next = lists.offsets.data() + 1;
+  for (const TileEntry& entry : found) ++lists.offsets[tile_index(entry) + 2];
+  for (std::size_t i = 2; i < lists.offsets.size(); ++i) lists.offsets[i] += lists.offsets[i - 1];
+  lists.entries.resize(found.size());
+  for (const TileEntry& entry : found) lists.entries[next[tile_index(entry)]++] = entry.triangle;
+  lists.offsets.pop_back();
 }
 
 struct OrderedCluster {
@@ -207,13 +218,6 @@ std::vector<OrderedCluster> visible_clusters(const RasterView& view, std::span<c
 
 }  // namespace
 
-std::span<const std::uint32_t> Batch::in_tile(int tile_x, int tile_y) const {
-  if (tile_x < tiles.x_begin || tile_x >= tiles.x_end || tile_y < tiles.y_begin || tile_y >= tiles.y_end)
-    return {};
-  const auto i = static_cast<std::size_t>((tile_y - tiles.y_begin) * tiles.width() + tile_x - tiles.x_begin);
-  return {entries.data() + offsets[i], offsets[i + 1] - offsets[i]};
-}
-
 void TriangleBins::fill(const RasterView& view, const TriangleClusters& geometry, const BinOptions& options,
                         const TaskPool& pool) {
   const std::vector<OrderedCluster> visible = visible_clusters(view, geometry.clusters, options);
@@ -224,16 +228,18 @@ void TriangleBins::fill(const RasterView& view, const TriangleClusters& geometry
   std::vector<std::vector<TileEntry>> scratch(static_cast<std::size_t>(pool.threads()));
   pool.for_each(used_, [&](std::size_t index, int worker) {
     Batch& batch = batches_[index];
-    batch.triangles.clear();
-    batch.planes.clear();
+    batch.small.clear();
+    batch.wide.clear();
     batch.statistics = {};
     const std::size_t end = std::min(visible.size(), (index + 1) * kClustersPerBatch);
     for (std::size_t i = index * kClustersPerBatch; i < end; ++i) {
       set_up_cluster({&setup, &geometry, &options, visible[i].cluster, visible[i].crossing}, batch);
       ++batch.statistics.clusters;
     }
-    batch.statistics.triangles_binned = batch.triangles.size();
-    sort_by_tile(batch, view, options, scratch[static_cast<std::size_t>(worker)]);
+    batch.statistics.triangles_binned = batch.small.size() + batch.wide.size();
+    std::vector<TileEntry>& found = scratch[static_cast<std::size_t>(worker)];
+    sort_by_tile<SmallTriangle>(batch.small, view, options, found, batch.small_by_tile);
+    sort_by_tile<WideTriangle>(batch.wide, view, options, found, batch.wide_by_tile);
   });
 }
 

@@ -46,25 +46,35 @@ inline constexpr int kSmallTriangle = 16;
 enum TriangleKind : std::uint32_t {
   kMasked = 1U << 0U,   // the alpha cut is asked about each covered sample
   kBlended = 1U << 1U,  // collected in a second list over the opaque surface
-  kWide = 1U << 2U,     // depth comes from a plane in double precision
 };
 
-/// Output of set-up; one cache line. Corners are ordered so that the area is positive (clockwise on screen).
-struct alignas(kCacheLine) BinnedTriangle {
-  std::int32_t x[3], y[3];       // snapped, relative to the view's origin
-  float base_x, base_y, base_q;  // reversed depth q(x, y) = base_q + q_dx (x − base_x) + q_dy (y − base_y),
-  float q_dx, q_dy;              // unless kWide
-  float q_min, q_max;  // of the corners: snapping may let a covered centre lie just outside the true triangle
+/// A triangle at most kSmallTriangle pixels wide and high, as set-up leaves it; one cache line. Its numbers are those at
+/// the centre of its first pixel, (x, y), and their change from there.
+struct alignas(kCacheLine) SmallTriangle {
+  /// Edge functions in 1/256 pixel, less 1 where samples on the edge belong to the neighbour: at least 0 inside.
+  std::int32_t edge[3];
+  /// Change of the first two edge functions in 1/256 pixel; that of the third is the negative sum of both.
+  float edge_dx[2], edge_dy[2];
+  std::int16_t x, y;           ///< from the view's origin
+  std::uint8_t columns, rows;  ///< of pixels with samples that may be covered
+  std::uint16_t kind;          ///< TriangleKind
+  float q, q_dx, q_dy;         ///< reversed depth
+  float q_min,
+      q_max;  ///< of the corners: snapping may let a covered sample lie just outside the true triangle
   TriangleId id;
-  std::uint32_t kind;
-  std::uint32_t plane;  // kWide: index into Batch::planes
 };
-static_assert(sizeof(BinnedTriangle) == kCacheLine);
+static_assert(sizeof(SmallTriangle) == kCacheLine);
 
-/// q(x, y) = q_0 + q_dx x + q_dy y, from the corners before clipping and snapping.
-struct WidePlane {
+/// Any other triangle; one cache line. Corners are ordered so that the area is positive (clockwise on screen).
+struct alignas(kCacheLine) WideTriangle {
+  std::int32_t x[3], y[3];  ///< snapped, relative to the view's origin
+  /// Reversed depth q(x, y) = q_0 + q_dx x + q_dy y, from the corners before clipping and snapping.
   double q_0, q_dx, q_dy;
+  float q_min, q_max;  ///< of the corners
+  TriangleId id;
+  std::uint32_t kind;  ///< TriangleKind
 };
+static_assert(sizeof(WideTriangle) == kCacheLine);
 
 /// A rectangle of pixels, or of tiles: begin inclusive, end exclusive.
 struct Rect {
@@ -94,16 +104,28 @@ struct BinStatistics {
   std::uint64_t triangles = 0, triangles_binned = 0;
 };
 
-/// The work of one task: consecutive clusters in drawing order.
-struct Batch {
-  AlignedVector<BinnedTriangle> triangles;
-  std::vector<WidePlane> planes;
+/// Which triangles touch which tile.
+struct TileLists {
   Rect tiles;                          // bounds of what the triangles touch
   std::vector<std::uint32_t> offsets;  // tiles.width() * tiles.height() + 1, into entries
-  std::vector<std::uint32_t> entries;  // triangles, by tile, in drawing order within each
-  BinStatistics statistics;
+  std::vector<std::uint32_t> entries;  // triangles, by tile
 
-  [[nodiscard]] std::span<const std::uint32_t> in_tile(int tile_x, int tile_y) const;
+  [[nodiscard]] std::span<const std::uint32_t> in_tile(int tile_x, int tile_y) const {
+    if (tile_x < tiles.x_begin || tile_x >= tiles.x_end || tile_y < tiles.y_begin || tile_y >= tiles.y_end)
+      return {};
+    const auto i =
+        static_cast<std::size_t>((tile_y - tiles.y_begin) * tiles.width() + tile_x - tiles.x_begin);
+    return {entries.data() + offsets[i], offsets[i + 1] - offsets[i]};
+  }
+};
+
+/// The work of one task: consecutive clusters, the nearest first. At equal depth the smaller id wins, so that the order
+/// of drawing is for speed alone.
+struct Batch {
+  AlignedVector<SmallTriangle> small;
+  AlignedVector<WideTriangle> wide;
+  TileLists small_by_tile, wide_by_tile;
+  BinStatistics statistics;
 };
 
 /// Triangles sorted by tile. Kept and refilled from frame to frame, so that its memory is touched only once.

@@ -82,11 +82,16 @@ struct Culling {
 
 // ---------------------------------------------------------------------------------------------- one by one
 
+// q(x, y) = q_0 + q_dx x + q_dy y.
+struct Plane {
+  double q_0, q_dx, q_dy;
+};
+
 // The plane q = q_0 + q_dx x + q_dy y through three pixel-homogeneous corners with right-hand sides r (1 in a
 // perspective view, the corner's reversed depth in an orthographic one): (X Y W) (q_dx q_dy q_0)ᵀ = r. In double,
 // from the corners as they are before clipping, it is exact to 2⁻²⁴ of the local depth everywhere on the triangle,
 // also where that runs from 0.1 m to 9 km (row 24).
-WidePlane PlaneThrough(const std::array<ClipVertex, 3>& v, const double* r) {
+Plane PlaneThrough(const std::array<ClipVertex, 3>& v, const double* r) {
   const double c0 = v[1].y * v[2].w - v[2].y * v[1].w;
   const double c1 = v[2].y * v[0].w - v[0].y * v[2].w;
   const double c2 = v[0].y * v[1].w - v[1].y * v[0].w;
@@ -143,21 +148,26 @@ std::int64_t AreaOf(const SnappedVertex* v) {
          std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
 }
 
-void EmitWide(const SnappedVertex* v, float q_min, float q_max, TriangleId id, std::uint32_t kind,
-              std::uint32_t plane, const Culling& culling, Batch& batch) {
-  const std::int64_t area = AreaOf(v);
-  if (culling.Drops(area)) return;
-  const int b = area > 0 ? 1 : 2;
+// What the parts of one triangle have in common.
+struct WideParts {
+  Plane plane;
+  float q_min, q_max;
+  TriangleId id;
+  std::uint32_t kind;
+};
+
+void EmitWide(const SnappedVertex* v, const WideParts& parts, Batch& batch) {
+  const int b = AreaOf(v) > 0 ? 1 : 2;
   const int c = 3 - b;
-  BinnedTriangle t{};
-  t.x[0] = v[0].x, t.x[1] = v[b].x, t.x[2] = v[c].x;
-  t.y[0] = v[0].y, t.y[1] = v[b].y, t.y[2] = v[c].y;
-  t.q_min = q_min;
-  t.q_max = q_max;
-  t.id = id;
-  t.kind = kind | kWide;
-  t.plane = plane;
-  batch.triangles.push_back(t);
+  batch.wide.push_back({{v[0].x, v[b].x, v[c].x},
+                        {v[0].y, v[b].y, v[c].y},
+                        parts.plane.q_0,
+                        parts.plane.q_dx,
+                        parts.plane.q_dy,
+                        parts.q_min,
+                        parts.q_max,
+                        parts.id,
+                        parts.kind});
 }
 
 // One triangle's corners in double.
@@ -182,17 +192,17 @@ WideCorners LoadWideCorners(const SetupTask& task, TriangleId id) {
   return corners;
 }
 
-// Reversed depths that a clipped or whole triangle spans.
-struct DepthSpan {
+WideParts PartsOf(const SetupTask& task, const WideCorners& corners, std::span<const ClipVertex> vertices,
+                  TriangleId id) {
+  const RasterView& view = *task.setup->view;
   double low = 0, high = 0;
-};
-DepthSpan SpanOf(const RasterView& view, std::span<const ClipVertex> vertices) {
-  DepthSpan span;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const double q = view.is_orthographic ? view.reversed_near - vertices[i].near_side : 1 / vertices[i].w;
-    span = i == 0 ? DepthSpan{q, q} : DepthSpan{std::min(span.low, q), std::max(span.high, q)};
+    low = i == 0 ? q : std::min(low, q);
+    high = i == 0 ? q : std::max(high, q);
   }
-  return span;
+  return {PlaneThrough(corners.clip, corners.right_side), static_cast<float>(low), static_cast<float>(high),
+          id, KindOf(task.geometry->clusters[task.cluster], *task.options)};
 }
 
 // Any triangle of a cluster that crosses the near plane or the guard band.
@@ -215,19 +225,12 @@ void SetUpClipped(const SetupTask& task, const ScreenVertices& screen, std::uint
       snapped[i] = {Snap(v.x / v.w), Snap(v.y / v.w)};
     }
   }
-  const DepthSpan q = SpanOf(view, std::span(polygon.vertices).first(polygon.count));
-  const std::uint32_t kind = KindOf(cluster, *task.options);
   const Culling culling(cluster, task.options->cull);
-  const auto plane_index = static_cast<std::uint32_t>(batch.planes.size());
-  const std::size_t before = batch.triangles.size();
+  const WideParts parts = PartsOf(task, corners, std::span(polygon.vertices).first(polygon.count), id);
   for (std::size_t i = 1; i + 1 < polygon.count; ++i) {
     const SnappedVertex fan[3] = {snapped[0], snapped[i], snapped[i + 1]};
     if (!TouchesPixels(task.options->pixels, view, task.options->sample_reach, fan)) continue;
-    EmitWide(fan, static_cast<float>(q.low), static_cast<float>(q.high), id, kind, plane_index, culling,
-             batch);
-  }
-  if (batch.triangles.size() > before) {
-    batch.planes.push_back(PlaneThrough(corners.clip, corners.right_side));
+    if (!culling.Drops(AreaOf(fan))) EmitWide(fan, parts, batch);
   }
 }
 
@@ -245,39 +248,40 @@ void SetUpWide(const SetupTask& task, const ScreenVertices& screen, std::uint32_
   const Culling culling(cluster, task.options->cull);
   if (culling.Drops(AreaOf(snapped))) return;
   const WideCorners corners = LoadWideCorners(task, id);
-  const DepthSpan q = SpanOf(*task.setup->view, corners.clip);
-  EmitWide(snapped, static_cast<float>(q.low), static_cast<float>(q.high), id, KindOf(cluster, *task.options),
-           static_cast<std::uint32_t>(batch.planes.size()), culling, batch);
-  batch.planes.push_back(PlaneThrough(corners.clip, corners.right_side));
+  EmitWide(snapped, PartsOf(task, corners, corners.clip, id), batch);
 }
 
 // ---------------------------------------------------------------------------------------------- N at a time
 
-// One field of N set-up triangles, on its way from vectors to records.
+// The fields of N set-up triangles, on their way from vectors to records.
 struct SmallFields {
-  alignas(64) std::int32_t x[3][16], y[3][16];
-  alignas(64) float base_x[16], base_y[16], base_q[16], q_dx[16], q_dy[16], q_min[16], q_max[16];
+  alignas(64) std::int32_t edge[3][16], x[16], y[16], columns[16], rows[16];
+  alignas(64) float edge_dx[2][16], edge_dy[2][16], q[16], q_dx[16], q_dy[16], q_min[16], q_max[16];
 };
 
 HWY_INLINE void EmitSmall(const SmallFields& fields, std::uint64_t mask, TriangleId first_id,
                           std::uint32_t kind, Batch& batch) {
-  for (; mask != 0; mask &= mask - 1) {
+  const std::size_t before = batch.small.size();
+  batch.small.resize(before + static_cast<std::size_t>(__builtin_popcountll(mask)));
+  SmallTriangle* t = batch.small.data() + before;
+  for (; mask != 0; mask &= mask - 1, ++t) {
     const auto i = static_cast<std::size_t>(__builtin_ctzll(mask));
-    BinnedTriangle& t = batch.triangles.emplace_back();
-    for (int k = 0; k < 3; ++k) {
-      t.x[k] = fields.x[k][i];
-      t.y[k] = fields.y[k][i];
+    for (int k = 0; k < 3; ++k) t->edge[k] = fields.edge[k][i];
+    for (int k = 0; k < 2; ++k) {
+      t->edge_dx[k] = fields.edge_dx[k][i];
+      t->edge_dy[k] = fields.edge_dy[k][i];
     }
-    t.base_x = fields.base_x[i];
-    t.base_y = fields.base_y[i];
-    t.base_q = fields.base_q[i];
-    t.q_dx = fields.q_dx[i];
-    t.q_dy = fields.q_dy[i];
-    t.q_min = fields.q_min[i];
-    t.q_max = fields.q_max[i];
-    t.id = first_id + static_cast<std::uint32_t>(i);
-    t.kind = kind;
-    t.plane = 0;
+    t->x = static_cast<std::int16_t>(fields.x[i]);
+    t->y = static_cast<std::int16_t>(fields.y[i]);
+    t->columns = static_cast<std::uint8_t>(fields.columns[i]);
+    t->rows = static_cast<std::uint8_t>(fields.rows[i]);
+    t->kind = static_cast<std::uint16_t>(kind);
+    t->q = fields.q[i];
+    t->q_dx = fields.q_dx[i];
+    t->q_dy = fields.q_dy[i];
+    t->q_min = fields.q_min[i];
+    t->q_max = fields.q_max[i];
+    t->id = first_id + static_cast<std::uint32_t>(i);
   }
 }
 
@@ -321,6 +325,18 @@ HWY_INLINE Corners LoadCorners(const SetupTask& task, const ScreenVertices& scre
   return c;
 }
 
+// Pixels with samples that N triangles may cover, ends included.
+struct PixelBoxes {
+  IntVector x_first, x_last, y_first, y_last;
+};
+
+HWY_INLINE PixelBoxes FindBoxes(const Corners& c, int reach) {
+  const IntTag di;
+  const IntVector *x = c.snapped_x, *y = c.snapped_y;
+  return {FirstPixel(di, Min3(x[0], x[1], x[2]), reach), LastPixel(di, Max3(x[0], x[1], x[2]), reach),
+          FirstPixel(di, Min3(y[0], y[1], y[2]), reach), LastPixel(di, Max3(y[0], y[1], y[2]), reach)};
+}
+
 // The pixels of the picture, or of the band of it that is being drawn.
 class PixelBounds {
  public:
@@ -328,47 +344,100 @@ class PixelBounds {
       : x_first_(hn::Set(IntTag(), options.pixels.x_begin - view.origin_x)),
         x_last_(hn::Set(IntTag(), options.pixels.x_end - 1 - view.origin_x)),
         y_first_(hn::Set(IntTag(), options.pixels.y_begin - view.origin_y)),
-        y_last_(hn::Set(IntTag(), options.pixels.y_end - 1 - view.origin_y)),
-        reach_(options.sample_reach) {}
+        y_last_(hn::Set(IntTag(), options.pixels.y_end - 1 - view.origin_y)) {}
 
-  // Whether a box of snapped coordinates may hold a sample of one of them.
-  HWY_INLINE hn::Mask<IntTag> Touches(IntVector x_low, IntVector x_high, IntVector y_low,
-                                      IntVector y_high) const {
-    const IntTag di;
-    const auto x_begin = hn::Max(FirstPixel(di, x_low, reach_), x_first_);
-    const auto x_end = hn::Min(LastPixel(di, x_high, reach_), x_last_);
-    const auto y_begin = hn::Max(FirstPixel(di, y_low, reach_), y_first_);
-    const auto y_end = hn::Min(LastPixel(di, y_high, reach_), y_last_);
+  HWY_INLINE hn::Mask<IntTag> Touches(const PixelBoxes& box) const {
+    const auto x_begin = hn::Max(box.x_first, x_first_), x_end = hn::Min(box.x_last, x_last_);
+    const auto y_begin = hn::Max(box.y_first, y_first_), y_end = hn::Min(box.y_last, y_last_);
     return hn::Not(hn::Or(x_begin > x_end, y_begin > y_end));
   }
 
  private:
   IntVector x_first_, x_last_, y_first_, y_last_;
-  int reach_;
 };
 
-// The corners so that they run clockwise, and the depth plane, from positions before snapping.
-HWY_INLINE void StoreFields(const Corners& c, const FloatVector* q, hn::Mask<IntTag> swap,
-                            SmallFields& fields) {
+// Edge functions of N small triangles at the centre of the first pixel of each, and their change from there, in 1/256
+// pixel. `swap`: triangles that run counter-clockwise.
+struct SmallEdges {
+  IntVector at[3], dx[3], dy[3];
+};
+
+HWY_INLINE SmallEdges FindEdges(const Corners& c, const PixelBoxes& box, hn::Mask<IntTag> swap) {
+  const IntTag di;
+  const auto zero = hn::Zero(di);
+  const IntVector x[3] = {c.snapped_x[0], hn::IfThenElse(swap, c.snapped_x[2], c.snapped_x[1]),
+                          hn::IfThenElse(swap, c.snapped_x[1], c.snapped_x[2])};
+  const IntVector y[3] = {c.snapped_y[0], hn::IfThenElse(swap, c.snapped_y[2], c.snapped_y[1]),
+                          hn::IfThenElse(swap, c.snapped_y[1], c.snapped_y[2])};
+  const auto centre = [&](IntVector pixel) HWY_ATTR {
+    return hn::ShiftLeft<kSubpixelBits>(pixel) + hn::Set(di, kSubpixels / 2);
+  };
+  const auto sample_x = centre(box.x_first), sample_y = centre(box.y_first);
+  SmallEdges edges;
+  for (int i = 0; i < 3; ++i) {
+    const int j = i == 2 ? 0 : i + 1;
+    edges.dx[i] = y[i] - y[j];
+    edges.dy[i] = x[j] - x[i];
+    // y grows downward and the corners run clockwise: a left edge runs up (dx > 0), a top edge to the right.
+    const auto is_top_left = hn::Or(edges.dx[i] > zero, hn::And(edges.dx[i] == zero, edges.dy[i] > zero));
+    const auto at = edges.dx[i] * (sample_x - x[i]) + edges.dy[i] * (sample_y - y[i]);
+    edges.at[i] = at - hn::IfThenZeroElse(is_top_left, hn::Set(di, 1));
+  }
+  return edges;
+}
+
+// Triangles that lie between the samples: none of the four samples of a box of up to 2 × 2 pixels is covered.
+HWY_INLINE hn::Mask<IntTag> MissSamples(const SmallEdges& edges, const PixelBoxes& box) {
+  const IntTag di;
+  const auto one = hn::Set(di, 1), zero = hn::Zero(di);
+  const auto is_tiny = hn::Not(hn::Or(box.x_last - box.x_first > one, box.y_last - box.y_first > one));
+  if (hn::AllFalse(di, is_tiny)) return is_tiny;
+  auto misses = is_tiny;
+  for (int sample = 0; sample < 4; ++sample) {
+    auto outside = zero;  // its sign
+    for (int i = 0; i < 3; ++i) {
+      auto at = edges.at[i];
+      if ((sample & 1) != 0) at = at + hn::ShiftLeft<kSubpixelBits>(edges.dx[i]);
+      if ((sample & 2) != 0) at = at + hn::ShiftLeft<kSubpixelBits>(edges.dy[i]);
+      outside = hn::Or(outside, at);
+    }
+    misses = hn::And(misses, outside < zero);
+  }
+  return misses;
+}
+
+HWY_INLINE void StoreEdges(const SmallEdges& edges, const PixelBoxes& box, SmallFields& fields) {
   const FloatTag d;
   const IntTag di;
+  for (int i = 0; i < 3; ++i) hn::Store(edges.at[i], di, fields.edge[i]);
+  for (int i = 0; i < 2; ++i) {
+    hn::Store(hn::ConvertTo(d, edges.dx[i]), d, fields.edge_dx[i]);
+    hn::Store(hn::ConvertTo(d, edges.dy[i]), d, fields.edge_dy[i]);
+  }
+  hn::Store(box.x_first, di, fields.x);
+  hn::Store(box.y_first, di, fields.y);
+  hn::Store(box.x_last - box.x_first + hn::Set(di, 1), di, fields.columns);
+  hn::Store(box.y_last - box.y_first + hn::Set(di, 1), di, fields.rows);
+}
+
+// The depth plane, from positions before snapping.
+HWY_INLINE void StoreDepth(const Corners& c, const FloatVector* q, const PixelBoxes& box,
+                           SmallFields& fields) {
+  const FloatTag d;
   const auto ux = c.x[1] - c.x[0], uy = c.y[1] - c.y[0], uq = q[1] - q[0];
   const auto vx = c.x[2] - c.x[0], vy = c.y[2] - c.y[0], vq = q[2] - q[0];
   const auto determinant = ux * vy - vx * uy;
   // A sliver has no gradient worth the name; q_min and q_max bound it to the truth.
   const auto is_flat = hn::Abs(determinant) < hn::Set(d, 1e-9F);
   const auto inverse = hn::Set(d, 1.0F) / hn::IfThenElse(is_flat, hn::Set(d, 1.0F), determinant);
-  hn::Store(hn::IfThenZeroElse(is_flat, (uq * vy - vq * uy) * inverse), d, fields.q_dx);
-  hn::Store(hn::IfThenZeroElse(is_flat, (vq * ux - uq * vx) * inverse), d, fields.q_dy);
-  hn::Store(c.snapped_x[0], di, fields.x[0]);
-  hn::Store(hn::IfThenElse(swap, c.snapped_x[2], c.snapped_x[1]), di, fields.x[1]);
-  hn::Store(hn::IfThenElse(swap, c.snapped_x[1], c.snapped_x[2]), di, fields.x[2]);
-  hn::Store(c.snapped_y[0], di, fields.y[0]);
-  hn::Store(hn::IfThenElse(swap, c.snapped_y[2], c.snapped_y[1]), di, fields.y[1]);
-  hn::Store(hn::IfThenElse(swap, c.snapped_y[1], c.snapped_y[2]), di, fields.y[2]);
-  hn::Store(c.x[0], d, fields.base_x);
-  hn::Store(c.y[0], d, fields.base_y);
-  hn::Store(q[0], d, fields.base_q);
+  const auto q_dx = hn::IfThenZeroElse(is_flat, (uq * vy - vq * uy) * inverse);
+  const auto q_dy = hn::IfThenZeroElse(is_flat, (vq * ux - uq * vx) * inverse);
+  const auto half = hn::Set(d, 0.5F);
+  const auto dx = hn::ConvertTo(d, box.x_first) + half - c.x[0],
+             dy = hn::ConvertTo(d, box.y_first) + half - c.y[0];
+  hn::Store(q[0] + (q_dx * dx + q_dy * dy), d, fields.q);
+  hn::Store(q_dx, d, fields.q_dx);
+  hn::Store(q_dy, d, fields.q_dy);
   hn::Store(Min3(q[0], q[1], q[2]), d, fields.q_min);
   hn::Store(Max3(q[0], q[1], q[2]), d, fields.q_max);
 }
@@ -389,19 +458,20 @@ void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& bat
   const TriangleId first_id = task.cluster << kTriangleBits;
   const PixelBounds pixels(view, *task.options);
   const auto limit = hn::Set(di, kSmallTriangle * kSubpixels);
+  const bool has_one_sample = task.options->sample_reach == 0;
   SmallFields fields;
 
   for (std::uint32_t first = 0; first < cluster.triangle_count; first += kLanes) {
     const Corners c = LoadCorners(task, screen, first_id + first);
-    const IntVector *x = c.snapped_x, *y = c.snapped_y;
-    const auto x_low = Min3(x[0], x[1], x[2]), x_high = Max3(x[0], x[1], x[2]);
-    const auto y_low = Min3(y[0], y[1], y[2]), y_high = Max3(y[0], y[1], y[2]);
-    const auto touched = pixels.Touches(x_low, x_high, y_low, y_high);
+    const PixelBoxes box = FindBoxes(c, task.options->sample_reach);
+    const auto touched = pixels.Touches(box);
     if (hn::AllFalse(di, touched)) continue;
 
     FloatVector q[3];
     for (int k = 0; k < 3; ++k) q[k] = hn::GatherIndex(d, screen.q, c.index[k]);
-    auto is_small = hn::Not(hn::Or(x_high - x_low > limit, y_high - y_low > limit));
+    const IntVector *x = c.snapped_x, *y = c.snapped_y;
+    auto is_small = hn::Not(hn::Or(Max3(x[0], x[1], x[2]) - Min3(x[0], x[1], x[2]) > limit,
+                                   Max3(y[0], y[1], y[2]) - Min3(y[0], y[1], y[2]) > limit));
     if (!view.is_orthographic) {
       const auto q_min = Min3(q[0], q[1], q[2]), q_max = Max3(q[0], q[1], q[2]);
       is_small = hn::And(is_small, hn::RebindMask(di, q_max <= q_min + q_min));
@@ -415,9 +485,13 @@ void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& bat
     for (std::uint64_t wide = BitsOf(hn::AndNot(is_small, touched)); wide != 0; wide &= wide - 1) {
       SetUpWide(task, screen, first + static_cast<std::uint32_t>(__builtin_ctzll(wide)), batch);
     }
-    const auto small = hn::And(hn::And(touched, is_small), kept);
+    auto small = hn::And(hn::And(touched, is_small), kept);
     if (hn::AllFalse(di, small)) continue;
-    StoreFields(c, q, area < hn::Zero(di), fields);
+    const SmallEdges edges = FindEdges(c, box, area < hn::Zero(di));
+    if (has_one_sample) small = hn::AndNot(MissSamples(edges, box), small);
+    if (hn::AllFalse(di, small)) continue;
+    StoreEdges(edges, box, fields);
+    StoreDepth(c, q, box, fields);
     EmitSmall(fields, BitsOf(small), first_id + first, kind, batch);
   }
 }

@@ -36,7 +36,7 @@ double milliseconds_since(Clock::time_point start) {
 constexpr std::size_t kBinMemory = std::size_t{512} << 20U;
 
 int band_count(const frame::Frame& frame, int tile_rows) {
-  const std::size_t bytes = frame.triangle_count() * sizeof(raster::BinnedTriangle);
+  const std::size_t bytes = frame.triangle_count() * sizeof(raster::SmallTriangle);
   return static_cast<int>(
       std::clamp<std::size_t>((bytes + kBinMemory - 1) / kBinMemory, 1, static_cast<std::size_t>(tile_rows)));
 }
