@@ -367,13 +367,15 @@ class TileRaster {
 
  private:
   static constexpr std::size_t kBlocks = std::size_t{kBlocksPerSide} * kBlocksPerSide;
-  static constexpr std::size_t kPrefetched = 8;  // triangles
+  static constexpr std::size_t kPrefetched = 12;  // triangles
 
   template <class Triangle, class Draw>
   HWY_INLINE void DrawEach(std::span<const Triangle> triangles, const TileLists& by_tile, Draw draw) {
     const std::span<const std::uint32_t> here = by_tile.in_tile(task_.tile_x, task_.tile_y);
+    // Records were written by another pass, perhaps by another processor: they come from afar.
+    for (std::size_t i = 0; i < std::min(kPrefetched, here.size()); ++i) hwy::Prefetch(&triangles[here[i]]);
     for (std::size_t i = 0; i < here.size(); ++i) {
-      hwy::Prefetch(&triangles[here[std::min(i + kPrefetched, here.size() - 1)]]);
+      if (i + kPrefetched < here.size()) hwy::Prefetch(&triangles[here[i + kPrefetched]]);
       const Triangle& t = triangles[here[i]];
       if (!Sink::Takes(t.kind)) continue;
       sink_.Begin(t.id);

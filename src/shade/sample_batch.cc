@@ -1,6 +1,7 @@
 #include "shade/sample_batch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace laterna::shade {
@@ -29,8 +30,13 @@ float position_error_of(const TileOrigin& origin, const SurfaceSamples& s) {
   const frame::Bounds& bounds = origin.frame->bounds;
   float extent = 0;
   for (int k = 0; k < 3; ++k) extent = std::max({extent, std::abs(bounds.low[k]), std::abs(bounds.high[k])});
-  float q = s.q[0];
-  for (std::size_t i = 1; i < s.group_count * kGroupSize; ++i) q = std::min(q, s.q[i]);
+  // Lane by lane, so that compilers make vectors of it.
+  std::array<float, kGroupSize> lowest{};
+  std::copy_n(s.q.begin(), kGroupSize, lowest.begin());
+  for (std::size_t first = kGroupSize; first < s.group_count * kGroupSize; first += kGroupSize) {
+    for (std::size_t i = 0; i < kGroupSize; ++i) lowest[i] = std::min(lowest[i], s.q[first + i]);
+  }
+  const float q = *std::min_element(lowest.begin(), lowest.end());
   const raster::RasterView& view = *origin.view;
   const float distance = view.is_orthographic ? static_cast<float>(view.view.projection.far) : 1 / q;
   return 1.2e-7F * extent + 4e-7F * distance;

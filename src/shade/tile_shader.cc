@@ -101,14 +101,16 @@ class TileShader::Worker {
 
   void shade_sample() {
     const bool has_planes = keeps_planes();
-    planes_.resize(has_planes ? job_.lights.size() + 1 : 1);
-    for (TileColor& plane : planes_) fill(plane, 0, 0, 0);
-    if (job_.background != nullptr) {
-      fill(planes_[0], job_.background->r, job_.background->g, job_.background->b);
+    planes_.resize(has_planes ? job_.lights.size() + 1 : 0);
+    const std::span<TileColor> planes = has_planes ? std::span(planes_) : std::span(&result_.beauty, 1);
+    const glm::vec3 background = job_.background != nullptr ? *job_.background : glm::vec3(0);
+    std::vector<ColorTarget> targets;
+    for (TileColor& plane : planes) {
+      const glm::vec3 start = targets.empty() ? background : glm::vec3(0);
+      fill(plane, start.r, start.g, start.b);
+      targets.push_back(target_of(plane));
     }
     if (sample_ == 0) layers_.start_tile();
-    std::vector<ColorTarget> targets;
-    for (TileColor& plane : planes_) targets.push_back(target_of(plane));
     if (job_.passes == Passes::multi) {
       shade_in_passes(targets);
     } else {
@@ -236,9 +238,12 @@ class TileShader::Worker {
   void find_arrival(const ShaderLight& light, bool of_all) {
     const std::size_t groups = samples_->group_count;
     const std::span wanted(of_all ? samples_->active : irradiance_->lit);
-    std::fill_n(arrival_.begin(), groups * kGroupSize, 1.0F);
-    if (light.shadow != nullptr) light.shadow->find_arrival(*samples_, wanted.first(groups), arrival_.data());
-    release_non_receivers();
+    if (light.shadow == nullptr) {
+      arrival_.fill(1);
+      return;
+    }
+    light.shadow->find_arrival(*samples_, wanted.first(groups), arrival_.data());
+    if (!job_.frame->all_receive_shadows) release_non_receivers();
   }
 
   // Objects that receive no shadow are fully lit.
@@ -319,8 +324,7 @@ class TileShader::Worker {
   // Adds this sample's planes to the pixel's.
   void accumulate(bool has_planes) {
     if (!has_planes) {
-      result_.radiance.clear();  // one sample, and it is the pixel
-      result_.beauty = planes_[0];
+      result_.radiance.clear();  // one sample, and it is the pixel: shading has written beauty itself
       result_.alpha = coverage_;
       return;
     }
