@@ -143,7 +143,8 @@ struct Renderer::Implementation {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
       if (progress.is_cancelled()) break;
-      job.lights.push_back({bound, make_technique(planned, i, ray, settings, statistics, progress)});
+      job.lights.push_back({bound, shade::LightReach(*planned.placed, settings.shading),
+                            make_technique(planned, i, ray, settings, statistics, progress)});
       if (job.wanted.lux && settings.shading == ShadingModel::papers) {
         job.physical_lights.emplace_back(*planned.placed, ray, ShadingModel::phong, settings.anisotropy);
       }

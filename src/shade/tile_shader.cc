@@ -208,9 +208,13 @@ class TileShader::Worker {
       if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
       if (!sums) scatter(*samples_, *radiance_, targets[0]);
     }
+    // Planes of the picture start dark; of fragments, every value is written.
+    const bool may_leave_out = is_opaque && !wants_arrival(is_opaque) && !keeps_illumination();
+    const frame::Bounds bounds = bounds_of(*samples_);
     for (std::size_t light = part.first_light; light < part.end_light; ++light) {
       if (surface.unlit && !wants_arrival(is_opaque)) continue;
       const ShaderLight& shader_light = job_.lights[light];
+      if (may_leave_out && !shader_light.reach.touches(bounds)) continue;
       find_irradiance(shader_light.bound);
       find_arrival(shader_light, wants_arrival(is_opaque));
       if (is_opaque) store_light_layers(light);

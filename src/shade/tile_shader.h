@@ -8,6 +8,7 @@
 
 #include "raster/tile_raster.h"
 #include "shade/illumination.h"
+#include "shade/light_reach.h"
 #include "shade/surface_cut.h"
 #include "shade/tile_layers.h"
 #include "shadow/shadow_technique.h"
@@ -17,6 +18,7 @@ namespace laterna::shade {
 /// A light as the tile shader uses it.
 struct ShaderLight {
   BoundLight bound;
+  LightReach reach;
   /// Null: nothing stands in its way.
   std::unique_ptr<shadow::ShadowTechnique> shadow;
 };
