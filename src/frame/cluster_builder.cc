@@ -135,17 +135,22 @@ ClusteredPrimitive build_clusters(std::span<const glm::vec3> positions,
 }
 
 ClusteredMeshes build_clusters(const Scene& scene, const TaskPool& pool) {
-  ClusteredMeshes meshes(scene.meshes.size());
-  std::vector<std::pair<std::size_t, std::size_t>> all;
+  MeshClustering clustering(scene);
+  pool.for_each(clustering.task_count(), [&](std::size_t task, int) { clustering.run(task); });
+  return clustering.take();
+}
+
+MeshClustering::MeshClustering(const Scene& scene) : scene_(scene), meshes_(scene.meshes.size()) {
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-    meshes[m].resize(scene.meshes[m].primitives.size());
-    for (std::size_t p = 0; p < meshes[m].size(); ++p) all.emplace_back(m, p);
+    meshes_[m].resize(scene.meshes[m].primitives.size());
+    for (std::size_t p = 0; p < meshes_[m].size(); ++p) primitives_.push_back({m, p});
   }
-  pool.for_each(all.size(), [&](std::size_t i, int) {
-    const Primitive& primitive = scene.meshes[all[i].first].primitives[all[i].second];
-    meshes[all[i].first][all[i].second] = build_clusters(primitive.positions, primitive.indices);
-  });
-  return meshes;
+}
+
+void MeshClustering::run(std::size_t task) {
+  const auto [mesh, part] = primitives_[task];
+  const Primitive& primitive = scene_.meshes[mesh].primitives[part];
+  meshes_[mesh][part] = build_clusters(primitive.positions, primitive.indices);
 }
 
 }  // namespace laterna::frame

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/task_pool.h"
@@ -31,5 +32,28 @@ ClusteredPrimitive build_clusters(std::span<const glm::vec3> positions,
 /// All primitives of a scene, by mesh and primitive.
 using ClusteredMeshes = std::vector<std::vector<ClusteredPrimitive>>;
 ClusteredMeshes build_clusters(const Scene& scene, const TaskPool& pool);
+
+/// The same as tasks, for whoever has others to do at the same time.
+class MeshClustering {
+ public:
+  /// The scene must outlive this.
+  explicit MeshClustering(const Scene& scene);
+
+  /// One per primitive.
+  [[nodiscard]] std::size_t task_count() const { return primitives_.size(); }
+  /// Tasks do not depend on one another, and each is run once.
+  void run(std::size_t task);
+  /// After all tasks.
+  ClusteredMeshes take() { return std::move(meshes_); }
+
+ private:
+  struct Place {
+    std::size_t mesh, primitive;
+  };
+
+  const Scene& scene_;
+  std::vector<Place> primitives_;
+  ClusteredMeshes meshes_;
+};
 
 }  // namespace laterna::frame

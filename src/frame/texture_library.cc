@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
+#include <system_error>
 
 namespace laterna::frame {
 namespace {
@@ -34,6 +36,15 @@ Result<Image> decode(const Picture& picture) {
   return read_image(picture.file);
 }
 
+// How long decoding takes goes with this; 0 where nothing has to be decoded, or nothing can be.
+std::uintmax_t encoded_bytes(const Picture& picture) {
+  if (picture.pixels != nullptr) return 0;
+  if (!picture.encoded.empty()) return picture.encoded.size();
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(picture.file, ignored);
+  return ignored ? 0 : size;
+}
+
 // A texel that is no number would spread over every level of the picture, and from there over what is rendered.
 void check_values(const Image& image, const Picture& picture, std::vector<Diagnostic>& faults) {
   const std::span<const float> values = image.values<float>();
@@ -58,41 +69,56 @@ image::MipUse slide_use(const Light& light) {
 }
 
 Result<TextureLibrary> TextureLibrary::load(const Scene& scene, const TaskPool& pool, InstructionSet set) {
-  // Pictures, each with all its uses: decoded once, then made into as many chains as there are uses.
-  std::vector<std::pair<int, std::vector<image::MipUse>>> pictures;
-  TextureLibrary library;
+  TextureLoading loading(scene, set);
+  pool.for_each(loading.task_count(), [&](std::size_t task, int) { loading.run(task); });
+  return loading.finish();
+}
+
+TextureLoading::TextureLoading(const Scene& scene, InstructionSet set) : scene_(scene), set_(set) {
   for (const Request& request : requests(scene)) {
-    if (pictures.empty() || pictures.back().first != request.first) pictures.push_back({request.first, {}});
-    pictures.back().second.push_back(request.second);
-    library.chains_[request] = nullptr;
+    const auto [index, use] = request;
+    if (pictures_.empty() || pictures_.back().index != index) {
+      pictures_.push_back({index, {}, encoded_bytes(scene.pictures[static_cast<std::size_t>(index)]), {}});
+    }
+    pictures_.back().uses.push_back(use);
+    library_.chains_[request] = nullptr;
   }
-  std::vector<std::vector<Diagnostic>> faults(pictures.size());
-  pool.for_each(pictures.size(), [&](std::size_t i, int) {
-    const auto& [index, uses] = pictures[i];
-    const Picture& picture = scene.pictures[static_cast<std::size_t>(index)];
-    Result<Image> decoded;
-    const Image* pixels = picture.pixels.get();
-    if (pixels == nullptr) {
-      decoded = decode(picture);
-      if (!decoded) {
-        faults[i] = std::move(decoded.error().diagnostics);
-        return;
-      }
-      pixels = &*decoded;
+  // Else a thread might end with the largest picture alone.
+  std::stable_sort(pictures_.begin(), pictures_.end(),
+                   [](const auto& a, const auto& b) { return a.encoded_bytes > b.encoded_bytes; });
+}
+
+void TextureLoading::run(std::size_t task) {
+  UsedPicture& used = pictures_[task];
+  const Picture& picture = scene_.pictures[static_cast<std::size_t>(used.index)];
+  Result<Image> decoded;
+  const Image* pixels = picture.pixels.get();
+  if (pixels == nullptr) {
+    decoded = decode(picture);
+    if (!decoded) {
+      used.faults = std::move(decoded.error().diagnostics);
+      return;
     }
-    check_values(*pixels, picture, faults[i]);
-    if (!faults[i].empty()) return;
-    for (const image::MipUse use : uses) {
-      library.chains_.at({index, use}) =
-          std::make_unique<image::MipChain>(image::make_mip_chain(*pixels, use, set));
-    }
-  });
+    pixels = &*decoded;
+  }
+  check_values(*pixels, picture, used.faults);
+  if (!used.faults.empty()) return;
+  for (const image::MipUse use : used.uses) {
+    library_.chains_.at({used.index, use}) =
+        std::make_unique<image::MipChain>(image::make_mip_chain(*pixels, use, set_));
+  }
+}
+
+Result<TextureLibrary> TextureLoading::finish() {
+  // In the scene's order, whatever was decoded first.
+  std::sort(pictures_.begin(), pictures_.end(),
+            [](const auto& a, const auto& b) { return a.index < b.index; });
   Error error;
-  for (auto& list : faults) {
-    for (Diagnostic& fault : list) error.diagnostics.push_back(std::move(fault));
+  for (UsedPicture& picture : pictures_) {
+    for (Diagnostic& fault : picture.faults) error.diagnostics.push_back(std::move(fault));
   }
   if (!error.diagnostics.empty()) return tl::unexpected(std::move(error));
-  return library;
+  return std::move(library_);
 }
 
 const image::MipChain* TextureLibrary::find(int picture, image::MipUse use) const {

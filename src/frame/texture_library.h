@@ -23,7 +23,36 @@ class TextureLibrary {
   [[nodiscard]] const image::MipChain* find(int picture, image::MipUse use) const;
 
  private:
+  friend class TextureLoading;
   std::map<std::pair<int, image::MipUse>, std::unique_ptr<image::MipChain>> chains_;
+};
+
+/// The same as tasks, for whoever has others to do at the same time.
+class TextureLoading {
+ public:
+  /// The scene must outlive this.
+  TextureLoading(const Scene& scene, InstructionSet set);
+
+  /// One per picture, those that take longest first.
+  [[nodiscard]] std::size_t task_count() const { return pictures_.size(); }
+  /// Tasks do not depend on one another, and each is run once.
+  void run(std::size_t task);
+  /// After all tasks.
+  Result<TextureLibrary> finish();
+
+ private:
+  // With all its uses: decoded once, then made into as many chains as there are uses.
+  struct UsedPicture {
+    int index;
+    std::vector<image::MipUse> uses;
+    std::uintmax_t encoded_bytes;
+    std::vector<Diagnostic> faults;
+  };
+
+  const Scene& scene_;
+  InstructionSet set_;
+  std::vector<UsedPicture> pictures_;
+  TextureLibrary library_;
 };
 
 /// How a material's base colour is kept: with alpha only where alpha is looked at.

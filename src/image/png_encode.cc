@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 
+#include "base/aligned_vector.h"
 #include "image/colour.h"
 #include "image/encoder.h"
 #include "image/image_rows.h"
@@ -25,6 +26,9 @@ constexpr std::size_t kLongestChunk = std::size_t{1} << 30;
 struct FreeCompressor {
   void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
 };
+
+// Not cleared: they are written in whole, by the threads that fill them.
+using LargeBuffer = AlignedVector<std::byte>;
 
 void append_u32(EncodedBytes& bytes, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::byte>(value >> shift));
@@ -63,9 +67,9 @@ std::span<const std::byte> big_endian_row(const Image& image, int y, EncodedByte
 }
 
 // Rows of the filter's number and the differences to the row above. Above the first row lies black.
-EncodedBytes filtered_rows(const Image& image, const TaskPool& pool) {
+LargeBuffer filtered_rows(const Image& image, const TaskPool& pool) {
   const std::size_t row_size = row_bytes(image, 0).size();
-  EncodedBytes filtered((row_size + 1) * static_cast<std::size_t>(image.height()));
+  LargeBuffer filtered((row_size + 1) * static_cast<std::size_t>(image.height()));
   struct Buffers {
     EncodedBytes row, above;
   };
@@ -91,11 +95,11 @@ EncodedBytes filtered_rows(const Image& image, const TaskPool& pool) {
   return filtered;
 }
 
-EncodedBytes compressed(const EncodedBytes& data) {
+LargeBuffer compressed(const LargeBuffer& data) {
   const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
       libdeflate_alloc_compressor(kCompressionLevel));
   if (compressor == nullptr) throw std::bad_alloc();
-  EncodedBytes result(libdeflate_zlib_compress_bound(compressor.get(), data.size()));
+  LargeBuffer result(libdeflate_zlib_compress_bound(compressor.get(), data.size()));
   result.resize(
       libdeflate_zlib_compress(compressor.get(), data.data(), data.size(), result.data(), result.size()));
   return result;
@@ -133,7 +137,7 @@ Image quantised(const LayeredImage& layers, const ColourChannels& channels, Pixe
 }
 
 EncodedBytes encode_pixels(const Image& image, const TaskPool& pool) {
-  const EncodedBytes pixels = compressed(filtered_rows(image, pool));
+  const LargeBuffer pixels = compressed(filtered_rows(image, pool));
   EncodedBytes file;
   file.reserve(pixels.size() + 128);
   append(file, "\x89PNG\r\n\x1a\n");

@@ -61,10 +61,19 @@ struct Renderer::Implementation {
 
   // Pictures are decoded and triangles cut into clusters at the same time.
   Result<void> load() {
-    Result<frame::TextureLibrary> library = frame::TextureLibrary::load(scene, pool, set);
+    frame::TextureLoading pictures(scene, set);
+    frame::MeshClustering clusters(scene);
+    pool.for_each(pictures.task_count() + clusters.task_count(), [&](std::size_t task, int) {
+      if (task < pictures.task_count()) {
+        pictures.run(task);
+      } else {
+        clusters.run(task - pictures.task_count());
+      }
+    });
+    Result<frame::TextureLibrary> library = pictures.finish();
     if (!library) return tl::unexpected(std::move(library.error()));
     textures = std::make_shared<const frame::TextureLibrary>(std::move(*library));
-    meshes = frame::build_clusters(scene, pool);
+    meshes = clusters.take();
     return rebuild();
   }
 
