@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "base/elementary.h"
 #include "image/colour.h"
@@ -80,22 +79,34 @@ class RowReader {
     } else {
       read_values(y, planes);
     }
-    if (!has_alpha_) return;
-    float* alpha = planes + 3 * stride_;
-    for (int x = 0; x < picture_.width(); ++x)
-      alpha[x] = picture_.has_alpha() ? picture_.value(x, y, picture_.channels() - 1) : 1.0F;
+    if (has_alpha_) read_alpha(y, planes + 3 * stride_);
   }
 
  private:
+  [[nodiscard]] const std::uint8_t* codes(int y) const {
+    return reinterpret_cast<const std::uint8_t*>(row_bytes(picture_, y).data());
+  }
+
   void read_codes(int y, float* planes) const {
     const std::array<float, 256>& value = is_srgb_ ? linear_from_srgb8() : code_fractions();
-    const auto* code = reinterpret_cast<const std::uint8_t*>(row_bytes(picture_, y).data());
+    const std::uint8_t* code = codes(y);
     float* const green = planes + stride_;
     float* const blue = green + stride_;
     for (std::size_t x = 0; x < width_; ++x, code += offsets_.step) {
       planes[x] = value[code[0]];
       green[x] = value[code[offsets_.green]];
       blue[x] = value[code[offsets_.blue]];
+    }
+  }
+
+  void read_alpha(int y, float* alpha) const {
+    if (!picture_.has_alpha()) {
+      std::fill_n(alpha, width_, 1.0F);
+    } else if (picture_.type() == PixelType::u8) {
+      const auto* code = codes(y) + offsets_.step - 1;
+      for (std::size_t x = 0; x < width_; ++x) alpha[x] = code_fractions()[code[x * offsets_.step]];
+    } else {
+      for (int x = 0; x < picture_.width(); ++x) alpha[x] = picture_.value(x, y, picture_.channels() - 1);
     }
   }
 

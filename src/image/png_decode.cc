@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "image/decoder.h"
+#include "image/png_plain.h"
 
 namespace laterna::image {
 namespace {
@@ -133,6 +134,7 @@ Result<Image> decode(const EncodedPicture& encoded, const ImageHeader& header) {
   if (file.packed_bytes() / kLargestRatio > static_cast<std::int64_t>(encoded.bytes.size()))
     return claims_too_much(encoded, kFormat, header);
   Image image(header.width, header.height, header.channels, header.type, Transfer::srgb);
+  if (read_plain_png(encoded.bytes, image)) return image;
   const std::size_t row_bytes = image.bytes().size() / static_cast<std::size_t>(header.height);
   std::vector<png_bytep> rows(static_cast<std::size_t>(header.height));
   for (std::size_t y = 0; y < rows.size(); ++y) {

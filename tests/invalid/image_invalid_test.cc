@@ -18,10 +18,6 @@ std::string error_of(const Bytes& file, std::string_view name) {
   return to_string(image.error());
 }
 
-Bytes first(const Bytes& file, std::size_t count) {
-  return {file.begin(), file.begin() + static_cast<std::ptrdiff_t>(count)};
-}
-
 Bytes with_byte(Bytes file, std::size_t position, int value) {
   file.at(position) = static_cast<std::byte>(value);
   return file;

@@ -63,6 +63,11 @@ inline Bytes u32_be(std::uint32_t value) {
   return {result.rbegin(), result.rend()};
 }
 
+/// The first bytes of a file.
+inline Bytes first(const Bytes& file, std::size_t count) {
+  return {file.begin(), file.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
 // ---------------------------------------------------------------------------------------------- PNG
 
 inline std::uint32_t crc32(const Bytes& data) {
