@@ -48,6 +48,7 @@ LIBRARIES = {
     "png.h": ["image"],
     "turbojpeg.h": ["image"],
     "libdeflate.h": ["image"],
+    "isa-l": ["image"],
     "Imf": ["image"],
     "half.h": ["image"],
     "OpenEXR/": ["image"],

@@ -1,34 +1,27 @@
-// PNG for speed: every row is filtered by the one above it, which suits rendered pictures, and compressed at
-// libdeflate's fastest level. Smaller files take several times as long.
+// PNG for speed: every row is filtered by the one above it, which suits rendered pictures, and strips of rows are
+// compressed in parallel, fast. Smaller files take several times as long.
 #include <libdeflate.h>
 
 #include <algorithm>
 #include <bit>
 #include <limits>
 #include <memory>
-#include <new>
 
-#include "base/aligned_vector.h"
 #include "image/colour.h"
 #include "image/encoder.h"
 #include "image/image_rows.h"
 #include "image/layers.h"
 #include "image/parallel_rows.h"
+#include "image/strip_compressor.h"
 
 namespace laterna::image {
 namespace {
 
-constexpr int kCompressionLevel = 1;
 constexpr std::byte kUpFilter{2};
-constexpr std::byte kPerceptual{0};  // the sRGB chunk's rendering intent
-constexpr std::size_t kLongestChunk = std::size_t{1} << 30;
-
-struct FreeCompressor {
-  void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
-};
-
-// Not cleared: they are written in whole, by the threads that fill them.
-using LargeBuffer = AlignedVector<std::byte>;
+constexpr std::byte kPerceptual{0};       // the sRGB chunk's rendering intent
+constexpr std::size_t kAroundChunk = 12;  // length, type and checksum
+// Long enough to lose little to matches that would begin in the strip before, short enough to share.
+constexpr std::size_t kStripBytes = std::size_t{256} << 10U;
 
 void append_u32(EncodedBytes& bytes, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::byte>(value >> shift));
@@ -66,43 +59,62 @@ std::span<const std::byte> big_endian_row(const Image& image, int y, EncodedByte
   return buffer;
 }
 
-// Rows of the filter's number and the differences to the row above. Above the first row lies black.
-LargeBuffer filtered_rows(const Image& image, const TaskPool& pool) {
-  const std::size_t row_size = row_bytes(image, 0).size();
-  LargeBuffer filtered((row_size + 1) * static_cast<std::size_t>(image.height()));
-  struct Buffers {
-    EncodedBytes row, above;
-  };
-  std::vector<Buffers> buffers(static_cast<std::size_t>(pool.threads()),
-                               {EncodedBytes(row_size), EncodedBytes(row_size)});
-  for_each_row_block(pool, image.height(), [&](int first, int last, int worker) {
-    Buffers& mine = buffers[static_cast<std::size_t>(worker)];
-    for (int y = first; y < last; ++y) {
-      std::byte* to = filtered.data() + static_cast<std::size_t>(y) * (row_size + 1);
-      *to++ = kUpFilter;
-      const std::span<const std::byte> row = big_endian_row(image, y, mine.row);
-      if (y == 0) {
-        std::copy(row.begin(), row.end(), to);
-        continue;
-      }
-      const std::span<const std::byte> above = big_endian_row(image, y - 1, mine.above);
-      for (std::size_t i = 0; i < row_size; ++i) {
-        to[i] =
-            static_cast<std::byte>(std::to_integer<unsigned>(row[i]) - std::to_integer<unsigned>(above[i]));
-      }
-    }
-  });
-  return filtered;
-}
+// Filters and compresses rows of a picture; one per thread.
+class StripEncoder {
+ public:
+  explicit StripEncoder(const Image& image)
+      : image_(image), row_size_(row_bytes(image, 0).size()), row_(row_size_), above_(row_size_) {}
 
-LargeBuffer compressed(const LargeBuffer& data) {
-  const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
-      libdeflate_alloc_compressor(kCompressionLevel));
-  if (compressor == nullptr) throw std::bad_alloc();
-  LargeBuffer result(libdeflate_zlib_compress_bound(compressor.get(), data.size()));
-  result.resize(
-      libdeflate_zlib_compress(compressor.get(), data.data(), data.size(), result.data(), result.size()));
-  return result;
+  struct Strip {
+    EncodedBytes data;
+    std::uint32_t adler32 = 0;
+    std::size_t filtered_size = 0;
+  };
+
+  Strip encode(int first, int last) {
+    filtered_.resize(static_cast<std::size_t>(last - first) * (row_size_ + 1));
+    for (int y = first; y < last; ++y)
+      filter(y, filtered_.data() + static_cast<std::size_t>(y - first) * (row_size_ + 1));
+    Strip strip = {{}, adler32(filtered_), filtered_.size()};
+    compressor_.append(filtered_, last == image_.height(), strip.data);
+    return strip;
+  }
+
+ private:
+  // The filter's number and the differences to the row above. Above the first row lies black.
+  void filter(int y, std::byte* to) {
+    *to++ = kUpFilter;
+    const std::span<const std::byte> row = big_endian_row(image_, y, row_);
+    if (y == 0) {
+      std::copy(row.begin(), row.end(), to);
+      return;
+    }
+    const std::span<const std::byte> above = big_endian_row(image_, y - 1, above_);
+    for (std::size_t i = 0; i < row_size_; ++i) {
+      to[i] = static_cast<std::byte>(std::to_integer<unsigned>(row[i]) - std::to_integer<unsigned>(above[i]));
+    }
+  }
+
+  const Image& image_;
+  std::size_t row_size_;
+  EncodedBytes row_, above_;  // scratch of big_endian_row()
+  EncodedBytes filtered_;
+  StripCompressor compressor_;
+};
+
+// The picture's rows from the top, in strips that depend on the picture alone.
+std::vector<StripEncoder::Strip> encode_strips(const Image& image, const TaskPool& pool) {
+  const std::size_t row_size = row_bytes(image, 0).size() + 1;
+  const auto rows = static_cast<int>(std::clamp<std::size_t>(kStripBytes / row_size, 1, kMaxImageSide));
+  std::vector<StripEncoder::Strip> strips(static_cast<std::size_t>((image.height() + rows - 1) / rows));
+  std::vector<std::unique_ptr<StripEncoder>> encoders(static_cast<std::size_t>(pool.threads()));
+  pool.for_each(strips.size(), [&](std::size_t strip, int worker) {
+    std::unique_ptr<StripEncoder>& encoder = encoders[static_cast<std::size_t>(worker)];
+    if (encoder == nullptr) encoder = std::make_unique<StripEncoder>(image);
+    const int first = static_cast<int>(strip) * rows;
+    strips[strip] = encoder->encode(first, std::min(first + rows, image.height()));
+  });
+  return strips;
 }
 
 // Rounds the colour channels to T; exposure is a factor on the light, so alpha does not take part.
@@ -137,15 +149,23 @@ Image quantised(const LayeredImage& layers, const ColourChannels& channels, Pixe
 }
 
 EncodedBytes encode_pixels(const Image& image, const TaskPool& pool) {
-  const LargeBuffer pixels = compressed(filtered_rows(image, pool));
   EncodedBytes file;
-  file.reserve(pixels.size() + 128);
   append(file, "\x89PNG\r\n\x1a\n");
   append_chunk(file, "IHDR", header_chunk(image));
   if (image.transfer() == Transfer::srgb) append_chunk(file, "sRGB", std::span(&kPerceptual, 1));
-  for (std::size_t at = 0; at < pixels.size(); at += kLongestChunk) {
-    append_chunk(file, "IDAT", std::span(pixels).subspan(at, std::min(kLongestChunk, pixels.size() - at)));
+  append_chunk(file, "IDAT", kZlibHeader);
+  const std::vector<StripEncoder::Strip> strips = encode_strips(image, pool);
+  std::size_t size = file.size() + 64;  // the strips and what closes the file
+  for (const StripEncoder::Strip& strip : strips) size += strip.data.size() + kAroundChunk;
+  file.reserve(size);
+  std::uint32_t checksum = adler32({});
+  for (const StripEncoder::Strip& strip : strips) {
+    append_chunk(file, "IDAT", strip.data);
+    checksum = adler32_of_both(checksum, strip.adler32, strip.filtered_size);
   }
+  EncodedBytes end;
+  append_u32(end, checksum);
+  append_chunk(file, "IDAT", end);
   append_chunk(file, "IEND", {});
   return file;
 }

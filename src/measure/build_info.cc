@@ -6,6 +6,7 @@
 #include <embree3/rtcore_config.h>
 #include <fmt/core.h>
 #include <hwy/highway.h>
+#include <isa-l.h>
 #include <libdeflate.h>
 #include <meshoptimizer.h>
 #include <png.h>
@@ -31,6 +32,7 @@ std::vector<Component> components() {
        fmt::format("{}.{}", MESHOPTIMIZER_VERSION / 1000, MESHOPTIMIZER_VERSION % 1000 / 10)},
       {"libpng", PNG_LIBPNG_VER_STRING},
       {"libdeflate", LIBDEFLATE_VERSION_STRING},
+      {"ISA-L", fmt::format("{}.{}.{}", ISAL_MAJOR_VERSION, ISAL_MINOR_VERSION, ISAL_PATCH_VERSION)},
       {"OpenEXR", OPENEXR_VERSION_STRING},
       {"JSON for Modern C++", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
                                           NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},

@@ -182,10 +182,11 @@ TEST(WriteExr, HoldsNothingButThePicture) {
 
 TEST(WriteImage, BytesDoNotDependOnTheNumberOfThreads) {
   const TemporaryFolder directory;
-  LayeredImage image = layered(257, 131, {{"R", {}}, {"G", {}}, {"B", {}}, {"A", {}}});
+  // Several of the strips in which a PNG is compressed.
+  LayeredImage image = layered(257, 531, {{"R", {}}, {"G", {}}, {"B", {}}, {"A", {}}});
   float value = 0;
   for (Channel& channel : image.channels) {
-    for (int i = 0; i < 257 * 131; ++i) channel.values.push_back(value = std::fmod(value + 0.37F, 1.0F));
+    for (int i = 0; i < 257 * 531; ++i) channel.values.push_back(value = std::fmod(value + 0.37F, 1.0F));
   }
   for (const std::string ending : {".png", ".exr", ".hdr", ".pfm"}) {
     expect_written(write_image(image, directory / ("one" + ending), {.threads = 1}));
