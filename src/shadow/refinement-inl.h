@@ -94,7 +94,8 @@ HWY_INLINE Slopes FindSlopes(const ShadowMapTest& test, const Points& p, FloatVe
 
 // ---------------------------------------------------------------------------------------------- suspects
 
-// Triangles that the four texels about N samples saw in front of them, each once.
+// Triangles that the four texels about N samples saw in front of them, each once. Of samples that are not `asked` for
+// the texels may not be drawn yet, and hold anything.
 struct Suspects {
   static constexpr int kMost = 4;
   IntVector id[kMost];            // the sample's own triangle where it has fewer
@@ -102,7 +103,8 @@ struct Suspects {
   FloatMask is_covered;           // the map has something to say
 };
 
-HWY_INLINE Suspects FindSuspects(const MapReader& reader, const Points& points, IntVector own) {
+HWY_INLINE Suspects FindSuspects(const MapReader& reader, const Points& points, IntVector own,
+                                 FloatMask asked) {
   const FloatTag d;
   const Receiver r = reader.Find(points);
   const Quad quad = reader.FindQuad(r);
@@ -110,6 +112,7 @@ HWY_INLINE Suspects FindSuspects(const MapReader& reader, const Points& points, 
   const auto one = Splat(1.0F);
   Suspects suspects;
   suspects.is_covered = reader.Covers(r);
+  const auto is_drawn = hn::And(asked, suspects.is_covered);
   for (int slot = 0; slot < Suspects::kMost; ++slot) {
     suspects.id[slot] = own;
     suspects.far_weight[slot] = Splat(0.0F);
@@ -124,7 +127,7 @@ HWY_INLINE Suspects FindSuspects(const MapReader& reader, const Points& points, 
         (i == 0 ? one - quad.weight_x : quad.weight_x) * (j == 0 ? one - quad.weight_y : quad.weight_y);
     const auto far_weight = hn::IfThenElseZero(gaps.is_far[k], weight);
     // Texels that saw nothing are lit; their id is none.
-    auto homeless = hn::Not(hn::Or(gaps.is_lit[k], hn::RebindMask(d, id == own)));
+    auto homeless = hn::AndNot(hn::Or(gaps.is_lit[k], hn::RebindMask(d, id == own)), is_drawn);
     for (int slot = 0; slot <= k; ++slot) {
       const auto known = suspects.id[slot];
       const auto fits = hn::And(homeless, hn::RebindMask(d, hn::Or(known == id, known == own)));
@@ -284,7 +287,7 @@ HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const SurfaceSa
   auto result = Splat(1.0F);
   ForEachMap(test, points.position_ws, [&](const BoundDepthMap& map, FloatMask here) HWY_ATTR {
     const MapReader reader(test, map, s.position_error);
-    const Suspects suspects = FindSuspects(reader, points, own);
+    const Suspects suspects = FindSuspects(reader, points, own, here);
     const Blocking blocking = map.is_orthographic ? TestSuspects<true>(test, map, places, suspects, own)
                                                   : TestSuspects<false>(test, map, places, suspects, own);
     const auto alpha = MeanArrival(blocking, test.positions);
