@@ -23,24 +23,12 @@ struct Footprint {
   FloatVector du_dx, dv_dx, du_dy, dv_dy;
 };
 
-struct Texel4 {
-  FloatVector r, g, b, a;
-};
-HWY_INLINE Texel4 operator+(const Texel4& a, const Texel4& b) {
-  return {a.r + b.r, a.g + b.g, a.b + b.b, a.a + b.a};
-}
-HWY_INLINE Texel4 operator-(const Texel4& a, const Texel4& b) {
-  return {a.r - b.r, a.g - b.g, a.b - b.b, a.a - b.a};
-}
-HWY_INLINE Texel4 operator*(const Texel4& a, FloatVector s) { return {a.r * s, a.g * s, a.b * s, a.a * s}; }
-
-HWY_INLINE Texel4 Where(FloatMask mask, const Texel4& t) {
-  return {hn::IfThenElseZero(mask, t.r), hn::IfThenElseZero(mask, t.g), hn::IfThenElseZero(mask, t.b),
-          hn::IfThenElseZero(mask, t.a)};
+HWY_INLINE Vector3 Where(FloatMask mask, const Vector3& v) {
+  return {hn::IfThenElseZero(mask, v.x), hn::IfThenElseZero(mask, v.y), hn::IfThenElseZero(mask, v.z)};
 }
 HWY_INLINE FloatVector Where(FloatMask mask, FloatVector value) { return hn::IfThenElseZero(mask, value); }
 
-// Of texels or of one of their numbers.
+// Of colours or numbers.
 template <class T>
 HWY_INLINE T Lerp(const T& a, const T& b, FloatVector t) {
   return a + (b - a) * t;
@@ -122,19 +110,20 @@ struct AlphaReader {
   HWY_INLINE FloatVector Scaled(FloatVector alpha) const { return alpha * Splat(1.0F / 255.0F); }
 };
 
-// Colour, and alpha where it is wanted; otherwise 1.
-template <TexelFormat kFormat, bool kAlpha>
-struct TexelReader {
-  using Texel = Texel4;
+// Red, green and blue as x, y, z.
+template <TexelFormat kFormat>
+struct ColourReader {
+  using Texel = Vector3;
   const MipChain& chain;
 
   // A row's two taps. Most often they are neighbours in memory, and one access reads both.
-  HWY_INLINE void Read(IntVector row, const Taps& x, bool are_neighbours, Texel4& left, Texel4& right) const {
+  HWY_INLINE void Read(IntVector row, const Taps& x, bool are_neighbours, Vector3& left,
+                       Vector3& right) const {
     const auto low = row + x.low, high = row + x.high;
     if constexpr (kFormat == TexelFormat::wide) {
       left = ReadWide(low);
       right = ReadWide(high);
-    } else if (are_neighbours) {
+    } else if (HWY_LIKELY(are_neighbours)) {
       UintVector packed[2];
       GatherNeighbours(low, packed);
       left = Unpacked(packed[0]);
@@ -143,35 +132,25 @@ struct TexelReader {
       left = Unpacked(Gather(low));
       right = Unpacked(Gather(high));
     }
-    if constexpr (kAlpha && kFormat != TexelFormat::data) {
-      left.a = right.a = Splat(1.0F);
-      if (!chain.alpha.empty()) AlphaReader{chain}.Read(row, x, are_neighbours, left.a, right.a);
-    }
   }
 
-  HWY_INLINE Texel4 Scaled(const Texel4& t) const {
-    Texel4 out = t;
+  HWY_INLINE Vector3 Scaled(const Vector3& t) const {
     if constexpr (kFormat == TexelFormat::colour) {
-      const auto r_scale = Splat(1.0F / (2047.0F * 2047.0F));
-      out.r = t.r * r_scale;
-      out.g = t.g * r_scale;
-      out.b = t.b * Splat(1.0F / (1023.0F * 1023.0F));
+      const auto scale = Splat(1.0F / (2047.0F * 2047.0F));
+      return {t.x * scale, t.y * scale, t.z * Splat(1.0F / (1023.0F * 1023.0F))};
     } else if constexpr (kFormat == TexelFormat::data) {
-      const auto scale = Splat(1.0F / 255.0F);
-      out = {t.r * scale, t.g * scale, t.b * scale, kAlpha ? t.a * scale : t.a};
+      return t * Splat(1.0F / 255.0F);
+    } else {
+      return t;
     }
-    if constexpr (kAlpha && kFormat != TexelFormat::data) {
-      if (!chain.alpha.empty()) out.a = t.a * Splat(1.0F / 255.0F);
-    }
-    return out;
   }
 
  private:
-  HWY_INLINE Texel4 ReadWide(IntVector index) const {
+  HWY_INLINE Vector3 ReadWide(IntVector index) const {
     const FloatTag d;
     return {hn::GatherIndex(d, chain.wide.data(), index),
             hn::GatherIndex(d, chain.wide.data() + chain.texel_count, index),
-            hn::GatherIndex(d, chain.wide.data() + std::size_t{2} * chain.texel_count, index), Splat(1.0F)};
+            hn::GatherIndex(d, chain.wide.data() + std::size_t{2} * chain.texel_count, index)};
   }
 
   HWY_INLINE UintVector Gather(IntVector index) const {
@@ -199,28 +178,21 @@ struct TexelReader {
 #endif
   }
 
-  static HWY_INLINE Texel4 Unpacked(UintVector packed) {
+  static HWY_INLINE Vector3 Unpacked(UintVector packed) {
     const FloatTag d;
     const IntTag di;
     const UintTag du;
     const auto number = [&](UintVector bits) HWY_ATTR { return hn::ConvertTo(d, hn::BitCast(di, bits)); };
-    Texel4 t;
-    t.a = Splat(1.0F);
     if constexpr (kFormat == TexelFormat::colour) {
       const auto r = number(hn::ShiftRight<21>(packed));
       const auto g = number(hn::And(hn::ShiftRight<10>(packed), hn::Set(du, 2047U)));
       const auto b = number(hn::And(packed, hn::Set(du, 1023U)));
-      t.r = r * r;
-      t.g = g * g;
-      t.b = b * b;
+      return {r * r, g * g, b * b};
     } else {
       const auto byte = hn::Set(du, 255U);
-      t.r = number(hn::And(packed, byte));
-      t.g = number(hn::And(hn::ShiftRight<8>(packed), byte));
-      t.b = number(hn::And(hn::ShiftRight<16>(packed), byte));
-      if constexpr (kAlpha) t.a = number(hn::ShiftRight<24>(packed));
+      return {number(hn::And(packed, byte)), number(hn::And(hn::ShiftRight<8>(packed), byte)),
+              number(hn::And(hn::ShiftRight<16>(packed), byte))};
     }
-    return t;
   }
 };
 
@@ -341,13 +313,15 @@ class Lookup {
       TakeNearest(y, is_nearest);
     }
     const bool are_neighbours = hn::AllTrue(di, x.high == x.low + SplatInt(1));
-    const auto row = [&](IntVector y_index) HWY_ATTR {
-      Texel left, right;
-      reader_.Read(layout.first + y_index * layout.width, x, are_neighbours, left, right);
-      return Lerp(left, right, x.weight);
-    };
-    const Texel above = row(y.low), below = row(y.high);
+    const Texel above = Row(layout.first + y.low * layout.width, x, are_neighbours);
+    const Texel below = Row(layout.first + y.high * layout.width, x, are_neighbours);
     return reader_.Scaled(Lerp(above, below, y.weight));
+  }
+
+  HWY_INLINE Texel Row(IntVector first, const Taps& x, bool are_neighbours) const {
+    Texel left, right;
+    reader_.Read(first, x, are_neighbours, left, right);
+    return Lerp(left, right, x.weight);
   }
 
   Reader reader_;
@@ -356,23 +330,22 @@ class Lookup {
   int anisotropy_;  // most probes along a stretched footprint, 1…16
 };
 
-// The picture's colour over the footprint, in linear light; a is 1 unless kAlpha. A call costs little beside the
-// look-up, and keeps each kernel that reads textures from holding a dozen copies of this.
-template <bool kAlpha>
-HWY_NOINLINE Texel4 LookUp(const MipChain& chain, const Sampler& sampler, int anisotropy,
-                           const Footprint& footprint) {
+// The picture's colour over the footprint, in linear light. A call costs little beside the look-up, and keeps each
+// kernel that reads textures from holding a dozen copies of this.
+inline HWY_NOINLINE Vector3 LookUp(const MipChain& chain, const Sampler& sampler, int anisotropy,
+                                   const Footprint& footprint) {
   switch (chain.format) {
     case TexelFormat::colour:
-      return Lookup<TexelReader<TexelFormat::colour, kAlpha>>(chain, sampler, anisotropy).Filtered(footprint);
+      return Lookup<ColourReader<TexelFormat::colour>>(chain, sampler, anisotropy).Filtered(footprint);
     case TexelFormat::data:
-      return Lookup<TexelReader<TexelFormat::data, kAlpha>>(chain, sampler, anisotropy).Filtered(footprint);
+      return Lookup<ColourReader<TexelFormat::data>>(chain, sampler, anisotropy).Filtered(footprint);
     case TexelFormat::wide:
       break;
   }
-  return Lookup<TexelReader<TexelFormat::wide, kAlpha>>(chain, sampler, anisotropy).Filtered(footprint);
+  return Lookup<ColourReader<TexelFormat::wide>>(chain, sampler, anisotropy).Filtered(footprint);
 }
 
-// The alpha that LookUp<true> gives.
+// The picture's alpha over the footprint; 1 where it has none.
 inline HWY_NOINLINE FloatVector LookUpAlpha(const MipChain& chain, const Sampler& sampler, int anisotropy,
                                             const Footprint& footprint) {
   if (!chain.has_alpha()) return Splat(1.0F);

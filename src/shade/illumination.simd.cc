@@ -20,7 +20,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 using image::HWY_NAMESPACE::Footprint;
 using image::HWY_NAMESPACE::LookUp;
-using image::HWY_NAMESPACE::Texel4;
 using shadow::kGroupSize;
 using shadow::HWY_NAMESPACE::Evaluate;
 
@@ -188,8 +187,8 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
   }
   arriving.color = Splat3(light.color) * intensity;
   if (light.slide != nullptr) {
-    const Texel4 t = LookUp<false>(*light.slide, light.slide_sampler, light.anisotropy, f);
-    arriving.color = {arriving.color.x * t.r, arriving.color.y * t.g, arriving.color.z * t.b};
+    const Vector3 t = LookUp(*light.slide, light.slide_sampler, light.anisotropy, f);
+    arriving.color = {arriving.color.x * t.x, arriving.color.y * t.y, arriving.color.z * t.z};
   }
   arriving.shines = shines;
   return arriving;

@@ -40,7 +40,7 @@ void keep_above_cutoff(const CutSource& source, TriangleId id, const raster::Cut
   const frame::Frame& frame = *source.points.frame;
   const frame::Surface& surface = frame.surfaces[frame.clusters[cluster_of(id)].material];
   const frame::HWY_NAMESPACE::TriangleCorners<true> corners(frame, &id);
-  const Facet facet = FindFacet(source.rays, corners.Positions());
+  const Facet facet = FindFacet<true>(source.rays, corners.Positions());
   for (std::size_t group = 0; group < samples.groups(); ++group) {
     std::uint32_t bits = 0;
     for (std::size_t k = 0; k < 16; k += kLanes)

@@ -8,6 +8,8 @@
 
 #include <hwy/highway.h>
 
+#include <cmath>
+
 #include "base/vectors-inl.h"
 #include "frame/triangle_corners-inl.h"
 #include "laterna/shading.h"
@@ -35,33 +37,45 @@ struct Hit {
   Weights weights;
 };
 
-HWY_INLINE FloatVector InverseUnless(FloatMask is_nothing, FloatVector v) {
-  const auto one = Splat(1.0F);
-  return hn::IfThenZeroElse(is_nothing, one / hn::IfThenElse(is_nothing, one, v));
+// 1 / v and √v of numbers that are the same in all lanes where kUniform: vectors take far longer than one number.
+template <bool kUniform>
+HWY_INLINE FloatVector Inverse(FloatVector v) {
+  return kUniform ? Splat(1.0F / hn::GetLane(v)) : Splat(1.0F) / v;
+}
+template <bool kUniform>
+HWY_INLINE FloatVector SquareRoot(FloatVector v) {
+  return kUniform ? Splat(std::sqrt(hn::GetLane(v))) : hn::Sqrt(v);
 }
 
+template <bool kUniform>
+HWY_INLINE FloatVector InverseUnless(FloatMask is_nothing, FloatVector v) {
+  return hn::IfThenZeroElse(is_nothing, Inverse<kUniform>(hn::IfThenElse(is_nothing, Splat(1.0F), v)));
+}
+
+// kUniform: all lanes have one triangle.
+template <bool kUniform>
 HWY_INLINE Facet FindFacet(const PixelRays& rays, const CornerVectors& corners) {
   Facet facet;
   facet.corners = corners;
   const Vector3 u = corners.b - corners.a, v = corners.c - corners.a;
   const Vector3 n = Cross(u, v);
   const auto n_squared = Dot(n, n);
-  const auto inverse_n_squared = InverseUnless(n_squared <= Splat(1e-36F), n_squared);
+  const auto inverse_n_squared = InverseUnless<kUniform>(n_squared <= Splat(1e-36F), n_squared);
   facet.normal = n;
-  facet.unit_normal = n * hn::Sqrt(inverse_n_squared);
+  facet.unit_normal = n * SquareRoot<kUniform>(inverse_n_squared);
   // point − a = b u + c v; crossing with n isolates b and c.
   facet.to_b = Cross(v, n) * inverse_n_squared;
   facet.to_c = Cross(n, u) * inverse_n_squared;
   const Vector3 direction_x = Splat3(rays.direction_x), direction_y = Splat3(rays.direction_y);
   if (rays.is_orthographic) {
     const auto along = Dot(n, Splat3(rays.axis));
-    const auto inverse = InverseUnless(hn::Abs(along) <= Splat(1e-30F), along);
+    const auto inverse = InverseUnless<kUniform>(hn::Abs(along) <= Splat(1e-30F), along);
     facet.dq_dx = hn::Neg(Dot(n, direction_x) * inverse);
     facet.dq_dy = hn::Neg(Dot(n, direction_y) * inverse);
   } else {
     // On the plane q = n·direction / n·(corner − eye), and all its points have the same n·(point − eye).
     const auto distance = Dot(n, corners.a - Splat3(rays.eye));
-    const auto inverse = InverseUnless(hn::Abs(distance) <= Splat(1e-30F), distance);
+    const auto inverse = InverseUnless<kUniform>(hn::Abs(distance) <= Splat(1e-30F), distance);
     facet.dq_dx = Dot(n, direction_x) * inverse;
     facet.dq_dy = Dot(n, direction_y) * inverse;
   }

@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include "base/vectors-inl.h"
+#include "frame/surface_alpha-inl.h"
 #include "frame/texture_coordinates-inl.h"
 #include "frame/triangle_corners-inl.h"
 #include "image/texture_lookup-inl.h"
@@ -17,6 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace laterna::shade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
+using frame::HWY_NAMESPACE::AlphaInView;
 using frame::HWY_NAMESPACE::FindFootprint;
 using frame::HWY_NAMESPACE::Interpolate;
 using frame::HWY_NAMESPACE::kColorField;
@@ -24,8 +26,9 @@ using frame::HWY_NAMESPACE::kNormalField;
 using frame::HWY_NAMESPACE::kTangentField;
 using frame::HWY_NAMESPACE::TriangleCorners;
 using image::HWY_NAMESPACE::LookUp;
-using image::HWY_NAMESPACE::Texel4;
 using shadow::kGroupSize;
+
+HWY_INLINE Vector3 Product(const Vector3& a, const Vector3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 // Surface attributes at the samples of one vector.
 template <bool kUniform>
@@ -40,31 +43,23 @@ class SurfaceReader {
         facet_(facet),
         hit_(hit) {}
 
-  template <bool kAlpha>
-  HWY_INLINE Texel4 LookUpTexture(const frame::TextureBinding& binding) const {
-    return LookUp<kAlpha>(*binding.chain, binding.sampler, source_.anisotropy,
-                          FindFootprint(frame_, binding, corners_, hit_.weights));
+  HWY_INLINE Vector3 LookUpTexture(const frame::TextureBinding& binding) const {
+    return LookUp(*binding.chain, binding.sampler, source_.anisotropy,
+                  FindFootprint(frame_, binding, corners_, hit_.weights));
   }
 
   // Base colour with everything that multiplies it.
-  template <bool kAlpha>
-  HWY_INLINE Texel4 BaseColor() const {
-    Texel4 color = {Splat(surface_.base_color[0]), Splat(surface_.base_color[1]),
-                    Splat(surface_.base_color[2]), Splat(surface_.base_color[3])};
-    if (surface_.base_color_texture.chain != nullptr) {
-      const Texel4 t = LookUpTexture<kAlpha>(surface_.base_color_texture);
-      color = {color.r * t.r, color.g * t.g, color.b * t.b, color.a * t.a};
-    }
+  HWY_INLINE Vector3 BaseColor() const {
+    Vector3 color = Splat3(surface_.base_color.data());
+    if (surface_.base_color_texture.chain != nullptr)
+      color = Product(color, LookUpTexture(surface_.base_color_texture));
     const auto stream = corners_.StreamAt(kColorField);
-    if (!stream.IsMissing()) {
-      const auto one = Splat(1.0F);
-      const auto read = [&](const AlignedVector<float>& values) HWY_ATTR {
-        return stream.OrElse(Interpolate(corners_.At(values.data(), stream.first), hit_.weights), one);
-      };
-      color = {color.r * read(frame_.color_r), color.g * read(frame_.color_g), color.b * read(frame_.color_b),
-               color.a * read(frame_.color_a)};
-    }
-    return color;
+    if (stream.IsMissing()) return color;
+    const auto one = Splat(1.0F);
+    const Vector3 c = Interpolate(
+        corners_.At3(frame_.color_r.data(), frame_.color_g.data(), frame_.color_b.data(), stream.first),
+        hit_.weights);
+    return Product(color, {stream.OrElse(c.x, one), stream.OrElse(c.y, one), stream.OrElse(c.z, one)});
   }
 
   // Interpolated normal, or the triangle's where there is none; turned to the viewer on double-sided surfaces.
@@ -88,9 +83,9 @@ class SurfaceReader {
   HWY_INLINE Vector3 Perturbed(const Vector3& normal) const {
     const auto stream = corners_.StreamAt(kTangentField);
     if (stream.IsMissing()) return normal;
-    const Texel4 t = LookUpTexture<false>(surface_.normal_texture);
+    const Vector3 t = LookUpTexture(surface_.normal_texture);
     const auto two = Splat(2.0F), one = Splat(1.0F), scale = Splat(surface_.normal_scale);
-    const Vector3 local = {(t.r * two - one) * scale, (t.g * two - one) * scale, t.b * two - one};
+    const Vector3 local = {(t.x * two - one) * scale, (t.y * two - one) * scale, t.z * two - one};
     const Vector3 tangent = Interpolate(corners_.At3(frame_.tangent_x_ws.data(), frame_.tangent_y_ws.data(),
                                                      frame_.tangent_z_ws.data(), stream.first),
                                         hit_.weights);
@@ -135,30 +130,29 @@ HWY_INLINE void FindPoints(const PointSource& source, const frame::Surface& surf
   Store3(hit.to_eye_ws, p.to_eye_x_ws.data(), p.to_eye_y_ws.data(), p.to_eye_z_ws.data(), i);
   Store3(reader.ShadingNormal(), p.normal_x_ws.data(), p.normal_y_ws.data(), p.normal_z_ws.data(), i);
 
-  const Texel4 base = surface.alpha_mode == AlphaMode::opaque ? reader.template BaseColor<false>()
-                                                              : reader.template BaseColor<true>();
-  Store3({base.r, base.g, base.b}, p.base_r.data(), p.base_g.data(), p.base_b.data(), i);
-  hn::Store(surface.alpha_mode == AlphaMode::blend ? base.a : Splat(1.0F), d, p.alpha.data() + i);
+  Store3(reader.BaseColor(), p.base_r.data(), p.base_g.data(), p.base_b.data(), i);
+  auto alpha = Splat(1.0F);
+  if (surface.alpha_mode == AlphaMode::blend)
+    alpha = AlphaInView(*source.frame, surface, corners, hit.weights, source.anisotropy);
+  hn::Store(alpha, d, p.alpha.data() + i);
 
   auto metallic = Splat(surface.metallic), roughness = Splat(surface.roughness), occlusion = Splat(1.0F);
   if (surface.metallic_roughness_texture.chain != nullptr) {
-    const Texel4 t = reader.template LookUpTexture<false>(surface.metallic_roughness_texture);
-    roughness = roughness * t.g;
-    metallic = metallic * t.b;
+    const Vector3 t = reader.LookUpTexture(surface.metallic_roughness_texture);
+    roughness = roughness * t.y;
+    metallic = metallic * t.z;
   }
   if (surface.occlusion_texture.chain != nullptr) {
-    const Texel4 t = reader.template LookUpTexture<false>(surface.occlusion_texture);
-    occlusion = Splat(1.0F) + Splat(surface.occlusion_strength) * (t.r - Splat(1.0F));
+    const Vector3 t = reader.LookUpTexture(surface.occlusion_texture);
+    occlusion = Splat(1.0F) + Splat(surface.occlusion_strength) * (t.x - Splat(1.0F));
   }
   hn::Store(metallic, d, p.metallic.data() + i);
   hn::Store(roughness, d, p.roughness.data() + i);
   hn::Store(occlusion, d, p.occlusion.data() + i);
 
   Vector3 emissive = Splat3(surface.emissive.data());
-  if (surface.emissive_texture.chain != nullptr) {
-    const Texel4 t = reader.template LookUpTexture<false>(surface.emissive_texture);
-    emissive = {emissive.x * t.r, emissive.y * t.g, emissive.z * t.b};
-  }
+  if (surface.emissive_texture.chain != nullptr)
+    emissive = Product(emissive, reader.LookUpTexture(surface.emissive_texture));
   Store3(emissive, p.emissive_r.data(), p.emissive_g.data(), p.emissive_b.data(), i);
 }
 
@@ -178,13 +172,14 @@ void find_surface_points(const PointSource& source, const frame::Surface& surfac
   for (std::size_t first = 0; first < samples.group_count * kGroupSize; first += kGroupSize) {
     if (IsOneTriangle(ids + first)) {
       const TriangleCorners<true> corners(*source.frame, ids + first);
-      const Facet facet = FindFacet(rays, corners.Positions());
+      const Facet facet = FindFacet<true>(rays, corners.Positions());
       for (std::size_t i = first; i < first + kGroupSize; i += kLanes)
         FindPoints(source, surface, rays, corners, facet, samples, points, i);
     } else {
       for (std::size_t i = first; i < first + kGroupSize; i += kLanes) {
         const TriangleCorners<false> corners(*source.frame, ids + i);
-        FindPoints(source, surface, rays, corners, FindFacet(rays, corners.Positions()), samples, points, i);
+        FindPoints(source, surface, rays, corners, FindFacet<false>(rays, corners.Positions()), samples,
+                   points, i);
       }
     }
   }

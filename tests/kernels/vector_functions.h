@@ -49,7 +49,6 @@ struct TextureProbes {
   const image::MipChain* chain;
   Sampler sampler;
   int anisotropy;
-  bool with_alpha;
   Numbers u, v, du_dx, dv_dx, du_dy, dv_dy;
   Results r, g, b, a;
 };

@@ -67,15 +67,15 @@ void evaluate_row(const RowPoints& points) {
 void look_up_texture(const TextureProbes& p) {
   using image::HWY_NAMESPACE::Footprint;
   using image::HWY_NAMESPACE::LookUp;
+  using image::HWY_NAMESPACE::LookUpAlpha;
   for (std::size_t i = 0; i < p.u.size(); i += kLanes) {
     const Footprint footprint = {At(p.u, i),     At(p.v, i),     At(p.du_dx, i),
                                  At(p.dv_dx, i), At(p.du_dy, i), At(p.dv_dy, i)};
-    const auto texel = p.with_alpha ? LookUp<true>(*p.chain, p.sampler, p.anisotropy, footprint)
-                                    : LookUp<false>(*p.chain, p.sampler, p.anisotropy, footprint);
-    hn::Store(texel.r, FloatTag(), p.r.data() + i);
-    hn::Store(texel.g, FloatTag(), p.g.data() + i);
-    hn::Store(texel.b, FloatTag(), p.b.data() + i);
-    hn::Store(texel.a, FloatTag(), p.a.data() + i);
+    const Vector3 colour = LookUp(*p.chain, p.sampler, p.anisotropy, footprint);
+    hn::Store(colour.x, FloatTag(), p.r.data() + i);
+    hn::Store(colour.y, FloatTag(), p.g.data() + i);
+    hn::Store(colour.z, FloatTag(), p.b.data() + i);
+    hn::Store(LookUpAlpha(*p.chain, p.sampler, p.anisotropy, footprint), FloatTag(), p.a.data() + i);
   }
 }
 
