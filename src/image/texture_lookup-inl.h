@@ -75,110 +75,58 @@ HWY_INLINE void TakeNearest(Taps& taps, FloatMask is_nearest) {
   taps.weight = hn::IfThenZeroElse(is_nearest, taps.weight);
 }
 
-// A reader gives texels not yet scaled to [0, 1]: the scale is applied once, after filtering.
+// A reader fetches two texels of a row as they are stored, and turns what it fetched into numbers not yet scaled to
+// [0, 1]: the scale is applied once, after filtering.
+template <class Stored>
+struct Pair {
+  Stored left, right;
+};
 
 // Alpha alone.
 struct AlphaReader {
   using Texel = FloatVector;
+  using Stored = UintVector;
   const MipChain& chain;
 
-  HWY_INLINE void Read(IntVector row, const Taps& x, bool are_neighbours, FloatVector& left,
-                       FloatVector& right) const {
-    const FloatTag d;
+  HWY_INLINE Pair<UintVector> Fetch(IntVector row, const Taps& x, bool are_neighbours) const {
     const IntTag di;
     const UintTag du;
-    const auto number = [&](UintVector bits) HWY_ATTR { return hn::ConvertTo(d, hn::BitCast(di, bits)); };
     if (chain.format == TexelFormat::data) {
       const auto* words = reinterpret_cast<const std::int32_t*>(chain.texels.data());
       const auto read = [&](IntVector column) HWY_ATTR {
-        return number(hn::ShiftRight<24>(hn::BitCast(du, hn::GatherIndex(di, words, row + column))));
+        return hn::ShiftRight<24>(hn::BitCast(du, hn::GatherIndex(di, words, row + column)));
       };
-      left = read(x.low);
-      right = read(x.high);
-      return;
+      return {read(x.low), read(x.high)};
     }
     // Three more bytes than texels can be read: the word that starts with a texel holds its right neighbour, too.
     const auto* bytes = reinterpret_cast<const std::int32_t*>(chain.alpha.data());
     const auto read = [&](IntVector column)
                           HWY_ATTR { return hn::BitCast(du, hn::GatherOffset(di, bytes, row + column)); };
-    const auto byte = hn::Set(du, 255U);
     const auto word = read(x.low);
-    left = number(hn::And(word, byte));
-    right = number(hn::And(are_neighbours ? hn::ShiftRight<8>(word) : read(x.high), byte));
+    return {word, are_neighbours ? hn::ShiftRight<8>(word) : read(x.high)};
   }
 
-  HWY_INLINE FloatVector Scaled(FloatVector alpha) const { return alpha * Splat(1.0F / 255.0F); }
+  static HWY_INLINE FloatVector Decoded(UintVector word) {
+    return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), hn::And(word, hn::Set(UintTag(), 255U))));
+  }
+
+  static HWY_INLINE FloatVector Scaled(FloatVector alpha) { return alpha * Splat(1.0F / 255.0F); }
 };
 
-// Red, green and blue as x, y, z.
+// Red, green and blue as x, y, z: `colour` and `data`.
 template <TexelFormat kFormat>
 struct ColourReader {
   using Texel = Vector3;
+  using Stored = UintVector;
   const MipChain& chain;
 
-  // A row's two taps. Most often they are neighbours in memory, and one access reads both.
-  HWY_INLINE void Read(IntVector row, const Taps& x, bool are_neighbours, Vector3& left,
-                       Vector3& right) const {
-    const auto low = row + x.low, high = row + x.high;
-    if constexpr (kFormat == TexelFormat::wide) {
-      left = ReadWide(low);
-      right = ReadWide(high);
-    } else if (HWY_LIKELY(are_neighbours)) {
-      UintVector packed[2];
-      GatherNeighbours(low, packed);
-      left = Unpacked(packed[0]);
-      right = Unpacked(packed[1]);
-    } else {
-      left = Unpacked(Gather(low));
-      right = Unpacked(Gather(high));
-    }
+  // Most often the two are neighbours in memory, and one access reads both.
+  HWY_INLINE Pair<UintVector> Fetch(IntVector row, const Taps& x, bool are_neighbours) const {
+    if (HWY_LIKELY(are_neighbours)) return GatherNeighbours(row + x.low);
+    return {Gather(row + x.low), Gather(row + x.high)};
   }
 
-  HWY_INLINE Vector3 Scaled(const Vector3& t) const {
-    if constexpr (kFormat == TexelFormat::colour) {
-      const auto scale = Splat(1.0F / (2047.0F * 2047.0F));
-      return {t.x * scale, t.y * scale, t.z * Splat(1.0F / (1023.0F * 1023.0F))};
-    } else if constexpr (kFormat == TexelFormat::data) {
-      return t * Splat(1.0F / 255.0F);
-    } else {
-      return t;
-    }
-  }
-
- private:
-  HWY_INLINE Vector3 ReadWide(IntVector index) const {
-    const FloatTag d;
-    return {hn::GatherIndex(d, chain.wide.data(), index),
-            hn::GatherIndex(d, chain.wide.data() + chain.texel_count, index),
-            hn::GatherIndex(d, chain.wide.data() + std::size_t{2} * chain.texel_count, index)};
-  }
-
-  HWY_INLINE UintVector Gather(IntVector index) const {
-    const auto* texels = reinterpret_cast<const std::int32_t*>(chain.texels.data());
-    return hn::BitCast(UintTag(), hn::GatherIndex(IntTag(), texels, index));
-  }
-
-  // The texels at `index` and to their right: 64 bits at a time, first for the even lanes, then for the odd ones.
-  HWY_INLINE void GatherNeighbours(IntVector index, UintVector* packed) const {
-#if HWY_TARGET == HWY_SCALAR  // has no vectors of 64-bit lanes half as long
-    packed[0] = Gather(index);
-    packed[1] = Gather(index + SplatInt(1));
-#else
-    const UintTag du;
-    const hn::Repartition<std::uint64_t, UintTag> du64;
-    const hn::RebindToSigned<decltype(du64)> di64;
-    const auto* texels = reinterpret_cast<const std::uint64_t*>(chain.texels.data());
-    const auto indices = hn::BitCast(du64, index);
-    const auto even_offset = hn::ShiftRight<30>(hn::ShiftLeft<32>(indices));
-    const auto odd_offset = hn::ShiftLeft<2>(hn::ShiftRight<32>(indices));
-    const auto even = hn::GatherOffset(du64, texels, hn::BitCast(di64, even_offset));
-    const auto odd = hn::GatherOffset(du64, texels, hn::BitCast(di64, odd_offset));
-    packed[0] = hn::OddEven(hn::BitCast(du, hn::ShiftLeft<32>(odd)), hn::BitCast(du, even));
-    packed[1] = hn::OddEven(hn::BitCast(du, odd), hn::BitCast(du, hn::ShiftRight<32>(even)));
-#endif
-  }
-
-  static HWY_INLINE Vector3 Unpacked(UintVector packed) {
+  static HWY_INLINE Vector3 Decoded(UintVector packed) {
     const FloatTag d;
     const IntTag di;
     const UintTag du;
@@ -194,6 +142,59 @@ struct ColourReader {
               number(hn::And(hn::ShiftRight<16>(packed), byte))};
     }
   }
+
+  static HWY_INLINE Vector3 Scaled(const Vector3& t) {
+    if constexpr (kFormat == TexelFormat::colour) {
+      const auto scale = Splat(1.0F / (2047.0F * 2047.0F));
+      return {t.x * scale, t.y * scale, t.z * Splat(1.0F / (1023.0F * 1023.0F))};
+    } else {
+      return t * Splat(1.0F / 255.0F);
+    }
+  }
+
+ private:
+  HWY_INLINE UintVector Gather(IntVector index) const {
+    const auto* texels = reinterpret_cast<const std::int32_t*>(chain.texels.data());
+    return hn::BitCast(UintTag(), hn::GatherIndex(IntTag(), texels, index));
+  }
+
+  // The texels at `index` and to their right: 64 bits at a time, first for the even lanes, then for the odd ones.
+  HWY_INLINE Pair<UintVector> GatherNeighbours(IntVector index) const {
+#if HWY_TARGET == HWY_SCALAR  // has no vectors of 64-bit lanes half as long
+    return {Gather(index), Gather(index + SplatInt(1))};
+#else
+    const UintTag du;
+    const hn::Repartition<std::uint64_t, UintTag> du64;
+    const hn::RebindToSigned<decltype(du64)> di64;
+    const auto* texels = reinterpret_cast<const std::uint64_t*>(chain.texels.data());
+    const auto indices = hn::BitCast(du64, index);
+    const auto even_offset = hn::ShiftRight<30>(hn::ShiftLeft<32>(indices));
+    const auto odd_offset = hn::ShiftLeft<2>(hn::ShiftRight<32>(indices));
+    const auto even = hn::GatherOffset(du64, texels, hn::BitCast(di64, even_offset));
+    const auto odd = hn::GatherOffset(du64, texels, hn::BitCast(di64, odd_offset));
+    return {hn::OddEven(hn::BitCast(du, hn::ShiftLeft<32>(odd)), hn::BitCast(du, even)),
+            hn::OddEven(hn::BitCast(du, odd), hn::BitCast(du, hn::ShiftRight<32>(even)))};
+#endif
+  }
+};
+
+template <>
+struct ColourReader<TexelFormat::wide> {
+  using Texel = Vector3;
+  using Stored = Vector3;
+  const MipChain& chain;
+
+  HWY_INLINE Pair<Vector3> Fetch(IntVector row, const Taps& x, bool) const {
+    const float* r = chain.wide.data();
+    const auto read = [&](IntVector index) HWY_ATTR {
+      const FloatTag d;
+      return Vector3{hn::GatherIndex(d, r, index), hn::GatherIndex(d, r + chain.texel_count, index),
+                     hn::GatherIndex(d, r + std::size_t{2} * chain.texel_count, index)};
+    };
+    return {read(row + x.low), read(row + x.high)};
+  }
+  static HWY_INLINE Vector3 Decoded(const Vector3& colour) { return colour; }
+  static HWY_INLINE Vector3 Scaled(const Vector3& colour) { return colour; }
 };
 
 template <class Reader>
@@ -218,7 +219,7 @@ class Lookup {
   // As for a footprint of no size.
   HWY_INLINE Texel AtFullSize(FloatVector u, FloatVector v) const {
     const auto none = Splat(0.0F) > Splat(1.0F);
-    return Sharp(Wrapped(u, sampler_.wrap_u), Wrapped(v, sampler_.wrap_v), hn::Zero(IntTag()), none);
+    return Blended(Fetch(Wrapped(u, sampler_.wrap_u), Wrapped(v, sampler_.wrap_v), hn::Zero(IntTag()), none));
   }
 
  private:
@@ -265,17 +266,20 @@ class Lookup {
     v = Wrapped(v, sampler_.wrap_v);
     const auto is_minified = level > Splat(0.0F);
     if (sampler_.mip == MipFilter::none || chain_.level_count == 1 || hn::AllFalse(d, is_minified)) {
-      return Sharp(u, v, hn::Zero(di), is_minified);
+      return Blended(Fetch(u, v, hn::Zero(di), is_minified));
     }
     const auto last = Splat(static_cast<float>(chain_.level_count - 1));
     const auto held = hn::Min(hn::Max(level, Splat(0.0F)), last);
     if (sampler_.mip == MipFilter::nearest) {
-      return Sharp(u, v, hn::ConvertTo(di, hn::Floor(hn::Min(held + Splat(0.5F), last))), is_minified);
+      const auto nearest = hn::ConvertTo(di, hn::Floor(hn::Min(held + Splat(0.5F), last)));
+      return Blended(Fetch(u, v, nearest, is_minified));
     }
     const auto floor = hn::Floor(held);
     const auto finer = hn::ConvertTo(di, floor);
     const auto coarser = hn::Min(finer + SplatInt(1), SplatInt(chain_.level_count - 1));
-    return Lerp(Sharp(u, v, finer, is_minified), Sharp(u, v, coarser, is_minified), held - floor);
+    // Memory is slow: both levels are asked for before either is used.
+    const Quad fine = Fetch(u, v, finer, is_minified), coarse = Fetch(u, v, coarser, is_minified);
+    return Lerp(Blended(fine), Blended(coarse), held - floor);
   }
 
   struct LevelLayout {
@@ -296,9 +300,14 @@ class Lookup {
             hn::GatherIndex(di, table, entry + SplatInt(2))};
   }
 
-  // One level, each lane its own, with the sampler's filter for minified and magnified pictures.
-  HWY_INLINE Texel Sharp(FloatVector wrapped_u, FloatVector wrapped_v, IntVector level,
-                         FloatMask is_minified) const {
+  // The four texels about each lane's place in one level, as they are stored, and how to weigh them.
+  struct Quad {
+    Pair<typename Reader::Stored> above, below;
+    FloatVector x_weight, y_weight;
+  };
+  // Each lane has its own level. With the sampler's filter for minified and magnified pictures.
+  HWY_INLINE Quad Fetch(FloatVector wrapped_u, FloatVector wrapped_v, IntVector level,
+                        FloatMask is_minified) const {
     const FloatTag d;
     const IntTag di;
     const LevelLayout layout = LayoutOf(level);
@@ -313,15 +322,15 @@ class Lookup {
       TakeNearest(y, is_nearest);
     }
     const bool are_neighbours = hn::AllTrue(di, x.high == x.low + SplatInt(1));
-    const Texel above = Row(layout.first + y.low * layout.width, x, are_neighbours);
-    const Texel below = Row(layout.first + y.high * layout.width, x, are_neighbours);
-    return reader_.Scaled(Lerp(above, below, y.weight));
+    return {reader_.Fetch(layout.first + y.low * layout.width, x, are_neighbours),
+            reader_.Fetch(layout.first + y.high * layout.width, x, are_neighbours), x.weight, y.weight};
   }
 
-  HWY_INLINE Texel Row(IntVector first, const Taps& x, bool are_neighbours) const {
-    Texel left, right;
-    reader_.Read(first, x, are_neighbours, left, right);
-    return Lerp(left, right, x.weight);
+  static HWY_INLINE Texel Blended(const Quad& quad) {
+    const auto row = [&](const Pair<typename Reader::Stored>& pair) HWY_ATTR {
+      return Lerp(Reader::Decoded(pair.left), Reader::Decoded(pair.right), quad.x_weight);
+    };
+    return Reader::Scaled(Lerp(row(quad.above), row(quad.below), quad.y_weight));
   }
 
   Reader reader_;
