@@ -546,22 +546,24 @@ class TileRaster {
   HWY_NOINLINE void VisitCutBlock(std::size_t block, int bx, int by, TriangleId id, const Inside& inside,
                                   const Depth& depth) {
     const FloatTag d;
-    const IntTag di;
     if (asked_.count > CutSamples::kMost - kBlockPixels) Cut(id);
-    const auto x = hn::Set(d, static_cast<float>(tile_x_ + bx) + (0.5F + offset_x_)),
-               y = hn::Set(d, static_cast<float>(tile_y_ + by) + (0.5F + offset_y_));
+    const float x = static_cast<float>(tile_x_ + bx) + (0.5F + offset_x_),
+                y = static_cast<float>(tile_y_ + by) + (0.5F + offset_y_);
     for (std::size_t k = 0; k < kVectors; ++k) {
-      const std::size_t sample = block + k * kLanes;
       const auto covered = inside(k);
       if (hn::AllFalse(d, covered)) continue;
       const auto q = depth(k);
-      const auto passing = sink_.Passing(sample, covered, q);
-      const std::size_t end = asked_.count;
-      hn::CompressStore(x + hn::Load(d, kLaneX + k * kLanes), passing, d, asked_.x.data() + end);
-      hn::CompressStore(y + hn::Load(d, kLaneY + k * kLanes), passing, d, asked_.y.data() + end);
-      hn::CompressStore(hn::Iota(di, static_cast<std::int32_t>(sample)), hn::RebindMask(di, passing), di,
-                        asked_samples_.data() + end);
-      asked_.count += hn::CompressStore(q, passing, d, asked_.reversed_depth.data() + end);
+      alignas(64) float depths[kLanes];
+      hn::Store(q, d, depths);
+      std::uint32_t mask = MaskBits(hn::RebindMask(IntTag(), sink_.Passing(block + k * kLanes, covered, q)));
+      for (; mask != 0; mask &= mask - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(mask));
+        const std::size_t i = k * kLanes + lane;
+        asked_.x[asked_.count] = x + kLaneX[i];
+        asked_.y[asked_.count] = y + kLaneY[i];
+        asked_.reversed_depth[asked_.count] = depths[lane];
+        asked_samples_[asked_.count++] = static_cast<std::uint32_t>(block + i);
+      }
     }
   }
 
@@ -576,7 +578,7 @@ class TileRaster {
     task_.cut->keep(id, asked_, kept.data());
     for (std::size_t i = 0; i < asked_.count; ++i) {
       if ((kept[i / 16] >> (i % 16) & 1U) == 0) continue;
-      sink_.Write(static_cast<std::size_t>(asked_samples_[i]), asked_.reversed_depth[i]);
+      sink_.Write(asked_samples_[i], asked_.reversed_depth[i]);
     }
     asked_.count = 0;
   }
@@ -587,7 +589,7 @@ class TileRaster {
   float offset_x_, offset_y_;            // of the sample from its pixel's centre
   alignas(64) float farthest_[kBlocks];  // every sample of the block is at least this near
   CutSamples asked_;                     // of the triangle that is being drawn, if it is cut
-  alignas(64) std::array<std::int32_t, CutSamples::kMost> asked_samples_;  // where they lie in the tile
+  std::array<std::uint32_t, CutSamples::kMost> asked_samples_;  // where they lie in the tile
 };
 
 void rasterise_depth(const TileTask& task, float* depth) {
