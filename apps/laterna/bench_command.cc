@@ -2,12 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include <sys/resource.h>
-
+#include "frame_costs.h"
 #include "outcome.h"
 #include "scene_options.h"
 #include "workload.h"
@@ -21,59 +19,21 @@ struct Options {
   SceneOptions scene;
   ViewOptions view;
   std::string workload, name = "W1", scenes, picture;
-  int frames = 15, warm_up = 3;
+  FrameSeries series;
   bool keep_maps = false, json = false;
 };
 
-struct Timing {
-  double median, min, max;
-};
-
-Timing timing_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  const double median = n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-  return {median, values.front(), values.back()};
-}
-
-struct Stage {
-  const char* name;
-  double RenderStatistics::*member;
-};
-constexpr Stage kStages[] = {{"plan", &RenderStatistics::plan_ms},
-                             {"shadow", &RenderStatistics::shadow_ms},
-                             {"bin", &RenderStatistics::bin_ms},
-                             {"shade", &RenderStatistics::shade_ms}};
-
-Timing timing_of(const std::vector<RenderStatistics>& frames, double RenderStatistics::*member) {
-  std::vector<double> values;
-  for (const RenderStatistics& f : frames) values.push_back(f.*member);
-  return timing_of(std::move(values));
-}
-
-double peak_megabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-struct Prepared {
-  Renderer renderer;
-  View view;
-  RenderSettings settings;
-};
-
-Result<Prepared> prepare_workload(const Options& options) {
+Result<Subject> prepare_workload(const Options& options) {
   const Result<RendererOptions> machine = options.scene.renderer_options();
   if (!machine) return tl::unexpected(machine.error());
   Result<Workload> workload = load_workload(options.workload, options.name, options.scenes);
   if (!workload) return tl::unexpected(workload.error());
   Result<Renderer> renderer = Renderer::create(std::move(workload->scene), *machine);
   if (!renderer) return tl::unexpected(renderer.error());
-  return Prepared{std::move(*renderer), workload->view, workload->settings};
+  return Subject{std::move(*renderer), workload->view, workload->settings, workload->depth_light};
 }
 
-Result<Prepared> prepare_scene(const Options& options) {
+Result<Subject> prepare_scene(const Options& options) {
   const Result<ViewOptions::Size> size = options.view.parse_size();
   if (!size) return tl::unexpected(size.error());
   Result<Renderer> renderer = options.scene.make_renderer();
@@ -83,74 +43,103 @@ Result<Prepared> prepare_scene(const Options& options) {
   RenderSettings settings;
   settings.width = size->width;
   settings.height = size->height;
-  return Prepared{std::move(*renderer), *view, settings};
+  return Subject{std::move(*renderer), *view, settings, {}};
 }
 
-Json results_json(const std::vector<RenderStatistics>& frames, const Prepared& prepared) {
-  const Timing total = timing_of(frames, &RenderStatistics::total_ms);
-  Json stages;
-  for (const Stage& stage : kStages) stages[stage.name] = timing_of(frames, stage.member).median;
+struct Phase {
+  const char* name;
+  double RenderStatistics::*member;
+};
+constexpr Phase kPhases[] = {{"plan", &RenderStatistics::plan_ms},
+                             {"casters", &RenderStatistics::shadow_ms},
+                             {"bins", &RenderStatistics::bin_ms},
+                             {"tiles", &RenderStatistics::shade_ms}};
+
+Json stages_json(const StageTimes& stages) {
+  Json json;
+  for (std::size_t i = 0; i < kStageCount; ++i) json[name_of(static_cast<Stage>(i))] = stages.ms[i];
+  return json;
+}
+
+Json results_json(const FrameCosts& costs, const Subject& subject) {
+  const Timing frame = costs.frame();
+  const StageTimes maps = costs.stages(&RenderStatistics::map_stages);
+  const StageTimes picture = costs.stages(&RenderStatistics::picture_stages);
+  StageTimes both = maps;
+  both += picture;
+  Json stages = stages_json(both);
+  stages["pose"] = costs.pose().median;
+  Json phases;
+  for (const Phase& phase : kPhases) phases[phase.name] = costs.phase(phase.member).median;
   Json memory = Json::array();
-  for (const auto& light : frames.back().shadow_memory) {
+  for (const auto& light : costs.last().shadow_memory) {
     memory.push_back({{"light", light.light}, {"maps", light.maps}, {"bytes", light.bytes}});
   }
-  return {{"frame_ms", {{"median", total.median}, {"min", total.min}, {"max", total.max}}},
+  return {{"frame_ms", {{"median", frame.median}, {"min", frame.min}, {"max", frame.max}}},
           {"stages_ms", stages},
+          {"map_stages_ms", stages_json(maps)},
+          {"picture_stages_ms", stages_json(picture)},
+          {"phases_ms", phases},
           {"peak_mb", peak_megabytes()},
-          {"frames", frames.size()},
-          {"threads", prepared.renderer.threads()},
-          {"instruction_set", name_of(prepared.renderer.instruction_set())},
-          {"size", {prepared.settings.width, prepared.settings.height}},
-          {"triangles", frames.back().triangles},
-          {"triangles_drawn", frames.back().triangles_drawn},
-          {"maps_drawn", frames.back().maps_drawn},
+          {"frames", costs.count()},
+          {"threads", subject.renderer.threads()},
+          {"instruction_set", name_of(subject.renderer.instruction_set())},
+          {"size", {subject.settings.width, subject.settings.height}},
+          {"triangles", costs.last().triangles},
+          {"triangles_drawn", costs.last().triangles_drawn},
+          {"maps_drawn", costs.last().maps_drawn},
           {"shadow_memory", memory}};
 }
 
-void print_table(const std::vector<RenderStatistics>& frames, const Prepared& prepared) {
-  fmt::print("{}x{}, {} threads, {}, median of {} frames\n", prepared.settings.width,
-             prepared.settings.height, prepared.renderer.threads(),
-             name_of(prepared.renderer.instruction_set()), frames.size());
-  fmt::print("{:<8} {:>9} {:>9} {:>9}\n", "stage", "median ms", "min", "max");
-  for (const Stage& stage : kStages) {
-    const Timing t = timing_of(frames, stage.member);
-    fmt::print("{:<8} {:>9.2f} {:>9.2f} {:>9.2f}\n", stage.name, t.median, t.min, t.max);
+void print_stages(const FrameCosts& costs) {
+  const StageTimes maps = costs.stages(&RenderStatistics::map_stages);
+  const StageTimes picture = costs.stages(&RenderStatistics::picture_stages);
+  fmt::print("{:<12} {:>12} {:>9}   ms, all threads together\n", "stage", "shadow maps", "picture");
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    fmt::print("{:<12} {:>12.2f} {:>9.2f}\n", name_of(static_cast<Stage>(i)), maps.ms[i], picture.ms[i]);
   }
-  const Timing t = timing_of(frames, &RenderStatistics::total_ms);
-  fmt::print("{:<8} {:>9.2f} {:>9.2f} {:>9.2f}\n", "frame", t.median, t.min, t.max);
+  fmt::print("{:<12} {:>12.2f} {:>9.2f}\n\n", "all", maps.total(), picture.total());
+}
+
+void print_phases(const FrameCosts& costs) {
+  const auto line = [](const char* name, const Timing& t) {
+    fmt::print("{:<12} {:>12.2f} {:>9.2f} {:>9.2f}\n", name, t.median, t.min, t.max);
+  };
+  fmt::print("{:<12} {:>12} {:>9} {:>9}   by the clock\n", "phase", "median ms", "min", "max");
+  if (costs.pose().max > 0) line("pose", costs.pose());
+  for (const Phase& phase : kPhases) line(phase.name, costs.phase(phase.member));
+  line("frame", costs.frame());
+}
+
+void print_table(const FrameCosts& costs, const Subject& subject) {
+  const RenderStatistics& last = costs.last();
+  fmt::print("{}x{}, {} threads, {}, median of {} frames\n", subject.settings.width, subject.settings.height,
+             subject.renderer.threads(), name_of(subject.renderer.instruction_set()), costs.count());
+  print_stages(costs);
+  print_phases(costs);
   fmt::print("triangles {} considered, {} drawn; shadow maps {} drawn, {} kept; peak memory {:.0f} MB\n",
-             frames.back().triangles, frames.back().triangles_drawn, frames.back().maps_drawn,
-             frames.back().maps_kept, peak_megabytes());
+             last.triangles, last.triangles_drawn, last.maps_drawn, last.maps_kept, peak_megabytes());
+}
+
+std::string fault_of(const Options& options) {
+  if (options.workload.empty() && options.scene.files.empty()) return "bench needs a SCENE or --workload";
+  if (options.series.warm_up < 0) return "--warm-up must be at least 0";
+  if (options.picture == "-") return "bench prints to standard output: give --png a file";
+  if (options.series.frames < 1) return "--frames must be at least 1";
+  return {};
 }
 
 int run_bench(const Options& options) {
-  if (options.workload.empty() && options.scene.files.empty()) {
-    return report(bad_option("bench needs a SCENE or --workload"));
-  }
-  if (options.warm_up < 0) return report(bad_option("--warm-up must be at least 0"));
-  if (options.picture == "-") return report(bad_option("bench prints to standard output: give --png a file"));
-  if (options.frames < 1) return report(bad_option("--frames must be at least 1"));
-  Result<Prepared> prepared = options.workload.empty() ? prepare_scene(options) : prepare_workload(options);
-  if (!prepared) return report(prepared.error());
-  RenderSettings& settings = prepared->settings;
-  settings.keep_shadow_maps = options.keep_maps;
-  Image image(settings.width, settings.height, 3, PixelType::u8, Transfer::srgb);
-  RenderTarget target;
-  target.color8 =
-      ColorTarget8{image.values<std::uint8_t>().data(), 3, static_cast<std::size_t>(settings.width) * 3, 1};
-  std::vector<RenderStatistics> frames;
-  for (int i = -options.warm_up; i < options.frames; ++i) {
-    const Result<RenderStatistics> done = prepared->renderer.render_into(prepared->view, settings, target);
-    if (!done) return report(done.error());
-    if (i >= 0) frames.push_back(*done);
-  }
-  if (!options.picture.empty()) {
-    if (Result<void> written = write_image(image, options.picture); !written) return report(written.error());
-  }
+  if (const std::string fault = fault_of(options); !fault.empty()) return report(bad_option(fault));
+  Result<Subject> subject = options.workload.empty() ? prepare_scene(options) : prepare_workload(options);
+  if (!subject) return report(subject.error());
+  subject->settings.keep_shadow_maps = options.keep_maps;
+  const Result<FrameCosts> costs = draw_series(*subject, options.series, options.picture);
+  if (!costs) return report(costs.error());
   if (options.json) {
-    fmt::print("{}\n", results_json(frames, *prepared).dump(2));
+    fmt::print("{}\n", results_json(*costs, *subject).dump(2));
   } else {
-    print_table(frames, *prepared);
+    print_table(*costs, *subject);
   }
   return kOk;
 }
@@ -164,12 +153,17 @@ void declare_bench(CLI::App& app, Run& run) {
   command->get_option("SCENE")->required(false);
   options->view.declare(*command);
   command->add_option("--workload", options->workload, "JSON file of named workloads instead of a SCENE");
-  command->add_option("--name", options->name, "which workload")->capture_default_str();
+  command
+      ->add_option("--name", options->name,
+                   "which workload; W4.0: the first of a list, here of depth maps alone")
+      ->capture_default_str();
   command->add_option("--scenes", options->scenes,
                       "folder of the workload's models; default: scenes beside the file");
-  command->add_option("--frames", options->frames, "frames that count")->capture_default_str();
-  command->add_option("--warm-up", options->warm_up, "frames before them")->capture_default_str();
+  command->add_option("--frames", options->series.frames, "frames that count")->capture_default_str();
+  command->add_option("--warm-up", options->series.warm_up, "frames before them")->capture_default_str();
   command->add_flag("--cached", options->keep_maps, "keep shadow maps from frame to frame");
+  command->add_flag("--pose", options->series.poses_anew,
+                    "carry geometry to world space before each frame, as when something moves");
   command->add_option("--png", options->picture, "write the last frame");
   options->scene.declare_machine(*command);
   command->add_flag("--json", options->json, "as JSON");

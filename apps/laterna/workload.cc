@@ -125,6 +125,44 @@ Result<Workload> build(const Json& all, const Json& w, const std::filesystem::pa
   return workload;
 }
 
+// {"workload": "W2", "light": 0, "size": 4096}: one light of a workload, whose depth map alone is drawn.
+Result<Workload> build_depth_map(const Json& all, const Json& entry, const std::filesystem::path& scenes) {
+  const Json& of = all.at("workloads").at(entry.at("workload").get<std::string>());
+  Result<Workload> workload = build(all, of, scenes);
+  if (!workload) return workload;
+  const auto number = entry.at("light").get<std::size_t>();
+  if (number >= workload->scene.lights.size()) {
+    return tl::unexpected(
+        Error(Failure::bad_input, Diagnostic{{}, {}, fmt::format("there is no light {}", number)}));
+  }
+  Light& light = workload->scene.lights[number];
+  light.shadow.resolution = entry.at("size").get<int>();
+  workload->settings.width = workload->settings.height = light.shadow.resolution;
+  workload->depth_light = light.name;
+  return workload;
+}
+
+// "W4.1" → the second entry of the list "W4"; null where there is none.
+const Json* find_in_list(const Json& all, const std::string& name) {
+  for (const auto& [key, list] : all.items()) {
+    if (!list.is_array()) continue;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (name == fmt::format("{}.{}", key, i)) return &list[i];
+    }
+  }
+  return nullptr;
+}
+
+std::string names_in(const Json& all) {
+  std::string names;
+  const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  for (const auto& [key, value] : all.at("workloads").items()) add(key);
+  for (const auto& [key, list] : all.items()) {
+    for (std::size_t i = 0; list.is_array() && i < list.size(); ++i) add(fmt::format("{}.{}", key, i));
+  }
+  return names;
+}
+
 }  // namespace
 
 Result<Workload> load_workload(const std::filesystem::path& file, const std::string& name,
@@ -133,15 +171,16 @@ Result<Workload> load_workload(const std::filesystem::path& file, const std::str
   if (!stream) return tl::unexpected(fault(file, {}, "cannot be opened"));
   const Json all = Json::parse(stream, nullptr, false);
   if (all.is_discarded()) return tl::unexpected(fault(file, {}, "is not JSON"));
+  const std::filesystem::path beside = file.parent_path() / "scenes";
   try {
     const Json& workloads = all.at("workloads");
-    if (!workloads.contains(name)) {
-      std::string names;
-      for (const auto& [known, value] : workloads.items()) names += (names.empty() ? "" : ", ") + known;
-      return tl::unexpected(
-          fault(file, "workloads", fmt::format("there is no \"{}\"; there are {}", name, names)));
+    const std::filesystem::path& models = scenes.empty() ? beside : scenes;
+    if (workloads.contains(name)) return build(all, workloads.at(name), models);
+    if (const Json* entry = find_in_list(all, name); entry != nullptr) {
+      return build_depth_map(all, *entry, models);
     }
-    return build(all, workloads.at(name), scenes.empty() ? file.parent_path() / "scenes" : scenes);
+    return tl::unexpected(
+        fault(file, "workloads", fmt::format("there is no \"{}\"; there are {}", name, names_in(all))));
   } catch (const Json::exception& e) {
     return tl::unexpected(fault(file, "workloads." + name, e.what()));
   }

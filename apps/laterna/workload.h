@@ -13,8 +13,11 @@ struct Workload {
   Scene scene;
   View view;
   RenderSettings settings;
+  std::string depth_light;  ///< unless empty, only the depth map of this light is drawn
 };
 
+/// `name`: of a member of "workloads", or of an entry of another list of the file, such as "W4.1": the depth map of one
+/// light of a workload, at a size of its own.
 /// `scenes`: the folder that holds the workload's models; empty: "scenes" beside the file.
 Result<Workload> load_workload(const std::filesystem::path& file, const std::string& name,
                                const std::filesystem::path& scenes = {});

@@ -15,6 +15,7 @@
 #include "laterna/result.h"
 #include "laterna/scene.h"
 #include "laterna/shading.h"
+#include "laterna/stages.h"
 #include "laterna/view.h"
 
 namespace laterna {
@@ -81,11 +82,16 @@ struct RenderTarget {
 
 /// What a picture cost.
 struct RenderStatistics {
-  double plan_ms = 0;    ///< lights' matrices
-  double shadow_ms = 0;  ///< drawing shadow maps
-  double bin_ms = 0;     ///< culling, transforming, clipping, sorting by tile
-  double shade_ms = 0;   ///< rasterising and shading
+  // Phases, one after the other, by the clock:
+  double plan_ms = 0;  ///< lights' matrices
+  double shadow_ms =
+      0;  ///< sorting what casts shadows; shadow maps are drawn while shading, where they are asked for
+  double bin_ms = 0;    ///< culling, transforming, clipping, sorting by tile
+  double shade_ms = 0;  ///< rasterising and shading
   double total_ms = 0;
+  // What they are made of, summed over threads:
+  StageTimes map_stages;      ///< of all shadow maps drawn
+  StageTimes picture_stages;  ///< of the camera's view
   std::uint64_t triangles = 0,
                 triangles_drawn = 0;  ///< of the camera's view: considered, and sorted into tiles
   int maps_drawn = 0, maps_kept = 0;  ///< shadow maps
@@ -141,10 +147,12 @@ class Renderer {
   Result<void> set_light(int light, Light value);
 
   /// The depth maps of a light's shadow maps: one, or six for a light that shines all round. Channel "Z": metres along
-  /// the map's axis, +infinity where nothing is. Error: no such light, no such face.
+  /// the map's axis, +infinity where nothing is. `statistics`: what drawing cost, up to the conversion to metres.
+  /// Error: no such light, no such face.
   [[nodiscard]] Result<int> depth_map_count(const std::string& light) const;
   [[nodiscard]] Result<View> depth_map_view(const std::string& light, int face = 0) const;
-  [[nodiscard]] Result<LayeredImage> depth_map(const std::string& light, int face = 0) const;
+  [[nodiscard]] Result<LayeredImage> depth_map(const std::string& light, int face = 0,
+                                               RenderStatistics* statistics = nullptr) const;
 
  private:
   struct Implementation;

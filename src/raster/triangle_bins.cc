@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "raster/triangle_setup.h"
 
 namespace laterna::raster {
@@ -216,11 +217,38 @@ std::vector<OrderedCluster> visible_clusters(const RasterView& view, std::span<c
   return visible;
 }
 
+// Sets up clusters one after the other. Time is taken by runs of clusters that cross the near plane or the guard band
+// and of those that do not; the first of these tells how transform and set-up share the time of all.
+void set_up_clusters(std::span<const OrderedCluster> clusters, SetupTask task, SetUpCluster set_up_cluster,
+                     Batch& batch) {
+  StageTimes& times = batch.statistics.times;
+  StageTimes sample;
+  double inside_ms = 0;
+  Stopwatch watch;
+  watch.start();
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    task.cluster = clusters[i].cluster;
+    task.crossing = clusters[i].crossing;
+    const bool is_sample = !task.crossing && inside_ms == 0;
+    task.transform_ms = is_sample ? &sample[Stage::transform] : nullptr;
+    set_up_cluster(task, batch);
+    const bool ends_run = i + 1 == clusters.size() || clusters[i + 1].crossing != task.crossing;
+    if (!ends_run && !is_sample) continue;
+    const double ms = watch.lap_ms();
+    (task.crossing ? times[Stage::clip] : inside_ms) += ms;
+    if (is_sample) sample[Stage::set_up] = ms - sample[Stage::transform];
+  }
+  times += sample.share_out(inside_ms);
+}
+
 }  // namespace
 
 void TriangleBins::fill(const RasterView& view, const TriangleClusters& geometry, const BinOptions& options,
                         const TaskPool& pool) {
+  Stopwatch watch;
+  watch.start();
   const std::vector<OrderedCluster> visible = visible_clusters(view, geometry.clusters, options);
+  cull_ms_ = watch.lap_ms();
   used_ = (visible.size() + kClustersPerBatch - 1) / kClustersPerBatch;
   if (batches_.size() < used_) batches_.resize(used_);
   const SetupView setup(view);
@@ -230,25 +258,30 @@ void TriangleBins::fill(const RasterView& view, const TriangleClusters& geometry
     Batch& batch = batches_[index];
     batch.small.clear();
     batch.wide.clear();
+    const std::size_t first = index * kClustersPerBatch;
+    const std::size_t count = std::min(kClustersPerBatch, visible.size() - first);
     batch.statistics = {};
-    const std::size_t end = std::min(visible.size(), (index + 1) * kClustersPerBatch);
-    for (std::size_t i = index * kClustersPerBatch; i < end; ++i) {
-      set_up_cluster({&setup, &geometry, &options, visible[i].cluster, visible[i].crossing}, batch);
-      ++batch.statistics.clusters;
-    }
+    batch.statistics.clusters = count;
+    set_up_clusters(std::span(visible).subspan(first, count), {&setup, &geometry, &options, 0, false},
+                    set_up_cluster, batch);
     batch.statistics.triangles_binned = batch.small.size() + batch.wide.size();
+    Stopwatch sort_watch;
+    sort_watch.start();
     std::vector<TileEntry>& found = scratch[static_cast<std::size_t>(worker)];
     sort_by_tile<SmallTriangle>(batch.small, view, options, found, batch.small_by_tile);
     sort_by_tile<WideTriangle>(batch.wide, view, options, found, batch.wide_by_tile);
+    batch.statistics.times[Stage::bin] = sort_watch.lap_ms();
   });
 }
 
 BinStatistics TriangleBins::statistics() const {
   BinStatistics sum;
+  sum.times[Stage::cull] = cull_ms_;
   for (const Batch& batch : batches()) {
     sum.clusters += batch.statistics.clusters;
     sum.triangles += batch.statistics.triangles;
     sum.triangles_binned += batch.statistics.triangles_binned;
+    sum.times += batch.statistics.times;
   }
   return sum;
 }

@@ -11,6 +11,7 @@
 #include "base/task_pool.h"
 #include "base/triangle_clusters.h"
 #include "laterna/instruction_set.h"
+#include "laterna/stages.h"
 #include "raster/raster_view.h"
 
 namespace laterna::raster {
@@ -102,6 +103,7 @@ struct BinOptions {
 struct BinStatistics {
   std::uint64_t clusters = 0, clusters_culled = 0;
   std::uint64_t triangles = 0, triangles_binned = 0;
+  StageTimes times;
 };
 
 /// Which triangles touch which tile.
@@ -140,6 +142,7 @@ class TriangleBins {
 
  private:
   std::vector<Batch> batches_;
+  double cull_ms_ = 0;
   std::size_t used_ = 0;
   std::vector<std::uint32_t> order_;
 };

@@ -26,6 +26,7 @@ struct SetupTask {
   const BinOptions* options;
   std::uint32_t cluster;
   bool crossing;
+  double* transform_ms = nullptr;  ///< unless null, what the transformation took is added here
 };
 
 /// Appends the cluster's surviving triangles to the batch.

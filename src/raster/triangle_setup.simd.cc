@@ -13,6 +13,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/stopwatch.h"
 #include "raster/clip.h"
 #include "raster/triangle_setup.h"
 
@@ -500,7 +501,10 @@ void set_up_cluster(const SetupTask& task, Batch& batch) {
   const Cluster& cluster = task.geometry->clusters[task.cluster];
   batch.statistics.triangles += cluster.triangle_count;
   ScreenVertices screen;
+  Stopwatch watch;
+  if (task.transform_ms != nullptr) watch.start();
   TransformVertices(*task.setup, *task.geometry, cluster, screen);
+  if (task.transform_ms != nullptr) *task.transform_ms += watch.lap_ms();
   if (!task.crossing) {
     SetUpInside(task, screen, batch);
     return;

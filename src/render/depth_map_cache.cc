@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/stopwatch.h"
 #include "render/depth_map_painter.h"
 
 namespace laterna::render {
@@ -30,18 +31,23 @@ shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowV
                        keeps_triangles, std::move(outworn));
   auto painter =
       std::make_unique<DepthMapPainter>(context.frame, context.bins, context.instruction_set, faces);
-  painter->prepare(map.view(), context.pool);
+  context.times += painter->prepare(map.view(), context.pool);
   map.set_painter(std::move(painter));
   return map;
 }
 
 shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
-                                CasterFaces faces, bool keeps_triangles) {
-  shadow::DepthMap map = make_depth_map(context, shadow_view, faces, keeps_triangles);
-  context.pool.for_each(map.tile_count(), [&](std::size_t i, int) {
+                                CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn) {
+  shadow::DepthMap map = make_depth_map(context, shadow_view, faces, keeps_triangles, std::move(outworn));
+  std::vector<double> raster_ms(static_cast<std::size_t>(context.pool.threads()));
+  context.pool.for_each(map.tile_count(), [&](std::size_t i, int worker) {
+    Stopwatch watch;
+    watch.start();
     map.require(static_cast<int>(i) % map.tiles_x(), static_cast<int>(i) / map.tiles_x());
+    raster_ms[static_cast<std::size_t>(worker)] += watch.lap_ms();
   });
   map.rest();
+  for (const double ms : raster_ms) context.times[Stage::raster] += ms;
   return map;
 }
 

@@ -30,6 +30,7 @@ struct DrawContext {
   const TaskPool& pool;
   BinsPool& bins;
   InstructionSet instruction_set;
+  StageTimes& times;  // what is done here and now is added
 };
 
 /// A depth map whose tiles are drawn as they are asked for. `outworn`: see DepthMap.
@@ -37,7 +38,7 @@ shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowV
                                 CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn = {});
 /// The same, with every tile drawn.
 shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
-                                CasterFaces faces, bool keeps_triangles);
+                                CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn = {});
 
 class DepthMapCache {
  public:

@@ -36,8 +36,8 @@ DepthMapPainter::Bins DepthMapPainter::sort_casters(const raster::RasterView& vi
   return bins_;
 }
 
-void DepthMapPainter::prepare(const raster::RasterView& view, const TaskPool& pool) {
-  sort_casters(view, &pool);
+StageTimes DepthMapPainter::prepare(const raster::RasterView& view, const TaskPool& pool) {
+  return sort_casters(view, &pool)->statistics().times;
 }
 
 void DepthMapPainter::paint(const raster::RasterView& view, int tile_x, int tile_y, float* depth,

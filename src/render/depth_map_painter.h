@@ -21,8 +21,8 @@ class DepthMapPainter final : public shadow::TilePainter {
   DepthMapPainter(const frame::Frame& frame, BinsPool& bins, InstructionSet set, CasterFaces faces)
       : frame_(frame), bins_pool_(bins), set_(set), faces_(faces) {}
 
-  /// Sorts the casters by tile with all threads. Without it the first tile does so by itself.
-  void prepare(const raster::RasterView& view, const TaskPool& pool);
+  /// Sorts the casters by tile with all threads, and says what that took. Without it the first tile does so by itself.
+  StageTimes prepare(const raster::RasterView& view, const TaskPool& pool);
   void paint(const raster::RasterView& view, int tile_x, int tile_y, float* depth, TriangleId* ids) override;
   void rest() override;
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 
 #include "base/refuse.h"
+#include "base/stopwatch.h"
 #include "base/without_exceptions.h"
 #include "laterna/render.h"
 #include "light/light_plan.h"
@@ -25,12 +25,6 @@ using render::BinsPool;
 using render::ProgressReport;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Set-up triangles of the camera's view are held to about this much memory: larger scenes are drawn in bands.
 constexpr std::size_t kBinMemory = std::size_t{512} << 20U;
@@ -119,7 +113,7 @@ struct Renderer::Implementation {
     const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
                                      planned.settings.filter == ShadowFilter::refined, casters_revision};
     const render::DepthMapCache::Found found =
-        maps.find(index, key, {frame, pool, bins, set}, !settings.keep_shadow_maps);
+        maps.find(index, key, {frame, pool, bins, set, statistics.map_stages}, !settings.keep_shadow_maps);
     statistics.maps_drawn += found.made;
     statistics.maps_kept += static_cast<int>(found.maps.size()) - found.made;
     RenderStatistics::LightMemory memory = {planned.placed->light->name, static_cast<int>(found.maps.size()),
@@ -243,6 +237,7 @@ void Renderer::Implementation::draw_bands(const raster::RasterView& view, const 
   const int tiles_y = tiles_across(settings.height);
   const int bands = band_count(frame, tiles_y);
   std::vector<std::unique_ptr<shade::TileShader>> shaders(static_cast<std::size_t>(pool.threads()));
+  std::vector<double> encode_ms(shaders.size());
   const auto binned = bins.take();
   raster::BinOptions options;
   options.cull = raster::CullFaces::single_sided;
@@ -254,33 +249,45 @@ void Renderer::Implementation::draw_bands(const raster::RasterView& view, const 
   for (int band = 0; band < bands && !progress.is_cancelled(); ++band) {
     const int first_row = tiles_y * band / bands;
     const int end_row = tiles_y * (band + 1) / bands;
-    const Clock::time_point bin_start = Clock::now();
+    Stopwatch watch;
+    watch.start();
     options.pixels = {0, first_row * raster::kTileSide, settings.width,
                       std::min(end_row * raster::kTileSide, settings.height)};
     binned->fill(view, frame.geometry(), options, pool);
     job.batches = binned->batches();
     statistics.triangles += binned->statistics().triangles;
     statistics.triangles_drawn += binned->statistics().triangles_binned;
-    statistics.bin_ms += milliseconds_since(bin_start);
+    statistics.picture_stages += binned->statistics().times;
+    statistics.bin_ms += watch.lap_ms();
 
-    const Clock::time_point shade_start = Clock::now();
     pool.for_each(static_cast<std::size_t>(tiles_x * (end_row - first_row)), [&](std::size_t i, int worker) {
       if (progress.is_cancelled()) return;
       auto& shader = shaders[static_cast<std::size_t>(worker)];
       if (shader == nullptr) shader = std::make_unique<shade::TileShader>(job);
       const int x = static_cast<int>(i) % tiles_x;
       const int y = first_row + static_cast<int>(i) / tiles_x;
-      writer.write(x, y, shader->shade(x, y));
+      const shade::TileResult& tile = shader->shade(x, y);
+      Stopwatch encode_watch;
+      encode_watch.start();
+      writer.write(x, y, tile);
+      encode_ms[static_cast<std::size_t>(worker)] += encode_watch.lap_ms();
       progress.advance();
     });
-    statistics.shade_ms += milliseconds_since(shade_start);
+    statistics.shade_ms += watch.lap_ms();
+  }
+  for (std::size_t i = 0; i < shaders.size(); ++i) {
+    statistics.picture_stages[Stage::encode] += encode_ms[i];
+    if (shaders[i] == nullptr) continue;
+    statistics.picture_stages += shaders[i]->times();
+    statistics.map_stages[Stage::raster] += shaders[i]->map_ms();
   }
 }
 
 Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const RenderSettings& settings,
                                                         const RenderTarget& target,
                                                         const Progress& progress) const {
-  const Clock::time_point start = Clock::now();
+  Stopwatch watch;
+  watch.start();
   if (Result<void> checked = render::check_settings(settings, from); !checked)
     return tl::unexpected(checked.error());
   Result<render::PictureWriter> writer = render::PictureWriter::create(settings, target, frame, set);
@@ -289,18 +296,17 @@ Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const 
   const Drawing drawing(*this);
   RenderStatistics statistics;
   const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows});
-  statistics.plan_ms = milliseconds_since(start);
+  statistics.plan_ms = watch.lap_ms();
   ProgressReport report(progress, static_cast<std::size_t>(tiles_across(settings.width)) *
                                       static_cast<std::size_t>(tiles_across(settings.height)));
 
   const raster::RasterView view(from, settings.width, settings.height);
-  const Clock::time_point shadow_start = Clock::now();
   shade::ShaderJob job = make_job(view, settings, plan, statistics, report);
-  statistics.shadow_ms = milliseconds_since(shadow_start);
+  statistics.shadow_ms = watch.lap_ms();
   if (!report.is_cancelled()) draw_bands(view, settings, job, *writer, statistics, report);
   if (report.is_cancelled())
     return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
-  statistics.total_ms = milliseconds_since(start);
+  statistics.total_ms = statistics.plan_ms + statistics.shadow_ms + watch.lap_ms();
   return statistics;
 }
 
@@ -445,13 +451,22 @@ LayeredImage metres_of(const shadow::DepthMap& map) {
 
 }  // namespace
 
-Result<LayeredImage> Renderer::depth_map(const std::string& light, int face) const {
+Result<LayeredImage> Renderer::depth_map(const std::string& light, int face,
+                                         RenderStatistics* statistics) const {
   const Implementation& self = *implementation_;
   const Result<light::PlannedLight> planned = self.planned_face(light, face);
   if (!planned) return tl::unexpected(planned.error());
   return guarded([&]() -> Result<LayeredImage> {
-    return metres_of(render::draw_depth_map({self.frame, self.pool, self.bins, self.set},
-                                            planned->shadow_views[0], planned->settings.caster_faces, false));
+    RenderStatistics cost;
+    Stopwatch watch;
+    watch.start();
+    const shadow::DepthMap map =
+        render::draw_depth_map({self.frame, self.pool, self.bins, self.set, cost.map_stages},
+                               planned->shadow_views[0], planned->settings.caster_faces, false);
+    cost.shadow_ms = cost.total_ms = watch.lap_ms();
+    cost.maps_drawn = 1;
+    if (statistics != nullptr) *statistics = cost;
+    return metres_of(map);
   });
 }
 

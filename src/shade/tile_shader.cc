@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/stopwatch.h"
 #include "shade/affine_slide.h"
 #include "shade/fragment_list.h"
 #include "shade/sample_batch.h"
@@ -70,16 +71,37 @@ class TileShader::Worker {
   const TileResult& shade(int tile_x, int tile_y) {
     tile_x_ = tile_x;
     tile_y_ = tile_y;
+    is_timed_ = (tile_x + 3 * tile_y) % kTilesPerTimed == 0 || shading_stages_.total() == 0;
+    watch_.start();
     for (std::size_t sample = 0; sample < offsets_.size(); ++sample) {
       sample_ = sample;
       rasterise();
+      raster_ms_ += watch_.lap_ms();
+      if (is_timed_) stage_watch_.start();
       shade_sample();
+      shade_ms_ += watch_.lap_ms();
     }
     finish();
+    shade_ms_ += watch_.lap_ms();
     return result_;
   }
 
+  [[nodiscard]] StageTimes times() const {
+    StageTimes times = shading_stages_.share_out(shade_ms_ - map_ms_);
+    times[Stage::raster] = raster_ms_;
+    return times;
+  }
+  [[nodiscard]] double map_ms() const { return map_ms_; }
+
  private:
+  // Reading the clock for every batch and light would cost some per cent: it is done in one tile of so many.
+  static constexpr int kTilesPerTimed = 8;
+
+  // `elsewhere_ms`: of the lap, what is accounted for elsewhere.
+  void end_stage(Stage stage, double elsewhere_ms = 0) {
+    if (is_timed_) shading_stages_[stage] += stage_watch_.lap_ms() - elsewhere_ms;
+  }
+
   // -------------------------------------------------------------------------------------------- one sample per pixel
 
   void rasterise() {
@@ -119,6 +141,7 @@ class TileShader::Worker {
     find_coverage();
     if (!fragments_.is_empty()) blend_fragments();
     accumulate(has_planes);
+    end_stage(Stage::light);
   }
 
   [[nodiscard]] TileOrigin origin() const {
@@ -203,6 +226,7 @@ class TileShader::Worker {
     const bool sums = targets.size() == 1;
     const std::size_t groups = samples_->group_count;
     find_surface_points_(source_, surface, *samples_, *points_);
+    end_stage(Stage::surface);
     if (part.ambient) {
       find_ambient_(job_.reflection, surface, groups, *points_, *radiance_);
       if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
@@ -216,13 +240,16 @@ class TileShader::Worker {
       const ShaderLight& shader_light = job_.lights[light];
       if (may_leave_out && !shader_light.reach.touches(bounds)) continue;
       find_irradiance(shader_light.bound);
-      find_arrival(shader_light, wants_arrival(is_opaque));
+      end_stage(Stage::light);
+      const double drawing_ms = find_arrival(shader_light, wants_arrival(is_opaque));
+      end_stage(Stage::shadow, drawing_ms);
       if (is_opaque) store_light_layers(light);
       if (surface.unlit) continue;
       reflect_(job_.reflection, groups, *points_, *irradiance_, arrival_.data(), sums, *radiance_);
       if (!sums) scatter(*samples_, *radiance_, targets[light + 1]);
     }
     if (sums) scatter(*samples_, *radiance_, targets[0]);
+    end_stage(Stage::light);
   }
 
   [[nodiscard]] bool wants_arrival(bool is_opaque) const {
@@ -238,16 +265,18 @@ class TileShader::Worker {
     find_irradiance_(light, *samples_, *points_, coordinates, *irradiance_);
   }
 
-  // α of the lit samples, or of all where a layer shows it.
-  void find_arrival(const ShaderLight& light, bool of_all) {
+  // α of the lit samples, or of all where a layer shows it. Returns what ShadowTechnique::find_arrival does.
+  double find_arrival(const ShaderLight& light, bool of_all) {
     const std::size_t groups = samples_->group_count;
     const std::span wanted(of_all ? samples_->active : irradiance_->lit);
     if (light.shadow == nullptr) {
       arrival_.fill(1);
-      return;
+      return 0;
     }
-    light.shadow->find_arrival(*samples_, wanted.first(groups), arrival_.data());
+    const double drawing_ms = light.shadow->find_arrival(*samples_, wanted.first(groups), arrival_.data());
+    map_ms_ += drawing_ms;
     if (!job_.frame->all_receive_shadows) release_non_receivers();
+    return drawing_ms;
   }
 
   // Objects that receive no shadow are fully lit.
@@ -385,10 +414,18 @@ class TileShader::Worker {
   shadow::SampleArray<float> arrival_;
   TileResult result_;
   TileLayers layers_;
+
+  Stopwatch watch_, stage_watch_;
+  bool is_timed_ = false;
+  double raster_ms_ = 0, shade_ms_ = 0;
+  double map_ms_ = 0;          // of shade_ms_
+  StageTimes shading_stages_;  // of the tiles that are timed
 };
 
 TileShader::TileShader(const ShaderJob& job) : worker_(std::make_unique<Worker>(job)) {}
 TileShader::~TileShader() = default;
 const TileResult& TileShader::shade(int tile_x, int tile_y) { return worker_->shade(tile_x, tile_y); }
+StageTimes TileShader::times() const { return worker_->times(); }
+double TileShader::map_ms() const { return worker_->map_ms(); }
 
 }  // namespace laterna::shade

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "laterna/stages.h"
 #include "raster/tile_raster.h"
 #include "shade/illumination.h"
 #include "shade/light_reach.h"
@@ -50,6 +51,11 @@ class TileShader {
 
   /// The result is valid until the next call.
   const TileResult& shade(int tile_x, int tile_y);
+
+  /// Where time went, of all tiles so far. Stages of shading are apportioned by what they took in some of the tiles.
+  [[nodiscard]] StageTimes times() const;
+  /// Apart from these: what drawing tiles of shadow maps took, when they were first asked for.
+  [[nodiscard]] double map_ms() const;
 
  private:
   class Worker;

@@ -56,8 +56,8 @@ RayTracedShadow::Ray RayTracedShadow::ray_to_light(const glm::dvec3& position_ws
   return {glm::vec3(to_light / distance), static_cast<float>(distance * (1 - near_share))};
 }
 
-void RayTracedShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
-                                   float* alpha) const {
+double RayTracedShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+                                     float* alpha) const {
   for (std::size_t group = 0; group < samples.group_count; ++group) {
     for (unsigned mask = wanted[group]; mask != 0; mask &= mask - 1) {
       const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
@@ -69,6 +69,7 @@ void RayTracedShadow::find_arrival(const SurfaceSamples& samples, std::span<cons
       alpha[i] = is_blocked ? 0.0F : 1.0F;
     }
   }
+  return 0;
 }
 
 }  // namespace laterna::shadow

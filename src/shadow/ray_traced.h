@@ -13,8 +13,8 @@ class RayTracedShadow final : public ShadowTechnique {
  public:
   RayTracedShadow(const light::PlannedLight& planned, std::shared_ptr<const trace::RayScene> scene)
       : planned_(planned), scene_(std::move(scene)) {}
-  void find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
-                    float* alpha) const override;
+  double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+                      float* alpha) const override;
 
  private:
   struct Ray;

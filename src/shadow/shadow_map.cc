@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "base/stopwatch.h"
+
 namespace laterna::shadow {
 namespace {
 
@@ -68,18 +70,22 @@ ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::sh
   test_.instruction_set = set;
 }
 
-void ShadowMap::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
-                             float* alpha) const {
+double ShadowMap::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+                               float* alpha) const {
   std::vector<MapTile> missing;
   find_missing_tiles_for(test_.instruction_set)(test_, samples, wanted, missing);
+  Stopwatch watch;
+  if (!missing.empty()) watch.start();
   for (const MapTile& tile : missing) {
     if (asks_to_stop_ && asks_to_stop_()) {
       std::fill_n(alpha, samples.group_count * kGroupSize, 0.0F);
-      return;
+      return watch.lap_ms();
     }
     maps_[tile.map]->require(tile.x, tile.y);
   }
+  const double drawing_ms = missing.empty() ? 0 : watch.lap_ms();
   look_up_shadow_map_for(test_.instruction_set)(test_, samples, wanted, alpha);
+  return drawing_ms;
 }
 
 }  // namespace laterna::shadow

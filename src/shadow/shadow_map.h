@@ -59,8 +59,8 @@ class ShadowMap final : public ShadowTechnique {
             const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
             InstructionSet set, std::function<bool()> asks_to_stop = nullptr);
   /// Draws the maps' tiles that are needed first. Everything is dark once the caller has asked to stop.
-  void find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
-                    float* alpha) const override;
+  double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+                      float* alpha) const override;
 
  private:
   std::vector<std::shared_ptr<DepthMap>> maps_;

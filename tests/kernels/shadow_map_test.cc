@@ -475,10 +475,11 @@ Maps draw_maps(const light::PlannedLight& planned, const frame::Frame& frame, In
                bool keeps_triangles) {
   const TaskPool pool(1);
   render::BinsPool bins;
+  StageTimes times;
   Maps maps;
   for (const light::ShadowView& view : planned.shadow_views) {
     maps.push_back(std::make_shared<DepthMap>(
-        render::draw_depth_map({frame, pool, bins, set}, view, CasterFaces::both, keeps_triangles)));
+        render::draw_depth_map({frame, pool, bins, set, times}, view, CasterFaces::both, keeps_triangles)));
   }
   return maps;
 }
