@@ -1,6 +1,7 @@
 #include "workload.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -153,12 +154,12 @@ const Json* find_in_list(const Json& all, const std::string& name) {
   return nullptr;
 }
 
-std::string names_in(const Json& all) {
-  std::string names;
-  const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
-  for (const auto& [key, value] : all.at("workloads").items()) add(key);
+std::vector<std::string> names_in(const Json& all) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : all.at("workloads").items()) names.push_back(key);
   for (const auto& [key, list] : all.items()) {
-    for (std::size_t i = 0; list.is_array() && i < list.size(); ++i) add(fmt::format("{}.{}", key, i));
+    for (std::size_t i = 0; list.is_array() && i < list.size(); ++i)
+      names.push_back(fmt::format("{}.{}", key, i));
   }
   return names;
 }
@@ -180,10 +181,18 @@ Result<Workload> load_workload(const std::filesystem::path& file, const std::str
       return build_depth_map(all, *entry, models);
     }
     return tl::unexpected(
-        fault(file, "workloads", fmt::format("there is no \"{}\"; there are {}", name, names_in(all))));
+        fault(file, "workloads",
+              fmt::format("there is no \"{}\"; there are {}", name, fmt::join(names_in(all), ", "))));
   } catch (const Json::exception& e) {
     return tl::unexpected(fault(file, "workloads." + name, e.what()));
   }
+}
+
+std::vector<std::string> workload_names(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  const Json all = Json::parse(stream, nullptr, false);
+  const bool has_workloads = all.is_object() && all.contains("workloads") && all["workloads"].is_object();
+  return has_workloads ? names_in(all) : std::vector<std::string>{};
 }
 
 }  // namespace laterna::app

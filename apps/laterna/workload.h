@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "laterna/render.h"
 
@@ -21,5 +22,8 @@ struct Workload {
 /// `scenes`: the folder that holds the workload's models; empty: "scenes" beside the file.
 Result<Workload> load_workload(const std::filesystem::path& file, const std::string& name,
                                const std::filesystem::path& scenes = {});
+
+/// Every name that load_workload() knows in the file; none where it cannot be read.
+std::vector<std::string> workload_names(const std::filesystem::path& file);
 
 }  // namespace laterna::app

@@ -191,6 +191,7 @@ struct Renderer::Implementation {
   std::uint64_t casters_revision = 0;
   mutable BinsPool bins;
   mutable render::DepthMapCache maps;
+  mutable render::ReusePool<shadow::DepthMap> shown_maps;  // whose memory depth_map() draws into
   mutable std::atomic<int> pictures_drawn_now = 0;
   mutable std::mutex rays_mutex;
   mutable std::shared_ptr<const trace::RayScene> rays;
@@ -460,13 +461,14 @@ Result<LayeredImage> Renderer::depth_map(const std::string& light, int face,
     RenderStatistics cost;
     Stopwatch watch;
     watch.start();
-    const shadow::DepthMap map =
-        render::draw_depth_map({self.frame, self.pool, self.bins, self.set, cost.map_stages},
-                               planned->shadow_views[0], planned->settings.caster_faces, false);
+    const auto map = self.shown_maps.take();
+    *map = render::draw_depth_map({self.frame, self.pool, self.bins, self.set, cost.map_stages},
+                                  planned->shadow_views[0], planned->settings.caster_faces, false,
+                                  std::move(*map));
     cost.shadow_ms = cost.total_ms = watch.lap_ms();
     cost.maps_drawn = 1;
     if (statistics != nullptr) *statistics = cost;
-    return metres_of(map);
+    return metres_of(*map);
   });
 }
 
