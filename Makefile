@@ -31,11 +31,11 @@ test: ## check the includes, build, run every test
 	@$(call build,release)
 	@$(call ctest,release)
 
-bench: ## milliseconds per stage of the demo's scene, and of the kernels
-	@scripts/install-deps.sh demo bench
+bench: ## how the cost of a frame grows, and every kernel, as tables; QUICK=1 for a glance
+	@scripts/install-deps.sh bench
 	@$(call configure,release,-DLATERNA_BUILD_BENCHMARKS=ON)
-	@$(call build,release,--target laterna_cli laterna_bench)
-	@scripts/bench.sh
+	@$(call build,release,--target growth_bench kernels_bench)
+	@scripts/bench.sh $(if $(QUICK),--quick)
 
 lint: ## clang-format and clang-tidy
 	@scripts/install-deps.sh lint

@@ -1,15 +1,14 @@
 #!/bin/sh
-# Milliseconds per stage of the demo's scenes, then the kernels on every instruction set and what projected light costs
-# beside plain texturing.
+# How the cost of a frame grows, and every kernel by instruction set: tables in Markdown, for docs/performance.md.
+# Scenes are made in code; where ../shared is beside the project, its workloads are measured too.
 #
-#   scripts/bench.sh [ARGUMENT]...     of Google Benchmark, such as --benchmark_filter=slide
+#   scripts/bench.sh [--quick]     --quick: one round, without the largest rows
 set -eu
 cd "$(dirname "$0")/.."
-build=${LATERNA_BUILD:-build/release}
-for scene in stage table; do
-  echo "$scene:"
-  "$build/apps/laterna" bench "examples/scenes/$scene.glb" --rig "examples/scenes/$scene.json" --camera front \
-    --size 1920x1080 --frames 15
-  echo
-done
-"$build/bench/laterna_bench" --benchmark_min_time=0.3 "$@"
+bench=${LATERNA_BUILD:-build/release}/bench
+echo "## Growth"
+echo
+"$bench/growth_bench" "$@" --workloads ../shared/bench/workloads.json
+echo "## Kernels"
+echo
+scripts/kernel_tables.py --bench "$bench/kernels_bench" "$@"
