@@ -262,9 +262,8 @@ void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
   frame.bounds = bounds_of(frame.clusters);
   frame.has_blending = std::any_of(frame.clusters.begin(), frame.clusters.end(),
                                    [](const Cluster& c) { return (c.flags & kAlphaBlend) != 0; });
-  frame.all_receive_shadows =
-      std::all_of(frame.clusters.begin(), frame.clusters.end(),
-                  [](const Cluster& c) { return (c.flags & kReceivesShadow) != 0; });
+  frame.all_receive_shadows = std::all_of(frame.clusters.begin(), frame.clusters.end(),
+                                          [](const Cluster& c) { return (c.flags & kReceivesShadow) != 0; });
 }
 
 }  // namespace laterna::frame

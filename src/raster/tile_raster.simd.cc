@@ -357,21 +357,31 @@ class TileRaster {
   }
 
   void DrawAll() {
-    for (const Batch& batch : task_.batches) {
-      DrawEach<WideTriangle>(batch.wide, batch.wide_by_tile,
-                             [&](const WideTriangle& t) HWY_ATTR { DrawWide(t); });
-      DrawEach<SmallTriangle>(batch.small, batch.small_by_tile,
-                              [&](const SmallTriangle& t) HWY_ATTR { DrawSmall(t); });
+    for (const bool with_holes : {false, true}) {
+      for (const Batch& batch : task_.batches) {
+        DrawEach<WideTriangle>(batch.wide, batch.wide_by_tile, with_holes,
+                               [&](const WideTriangle& t) HWY_ATTR { DrawWide(t); });
+        DrawEach<SmallTriangle>(batch.small, batch.small_by_tile, with_holes,
+                                [&](const SmallTriangle& t) HWY_ATTR { DrawSmall(t); });
+      }
     }
   }
 
  private:
   static constexpr std::size_t kBlocks = std::size_t{kBlocksPerSide} * kBlocksPerSide;
   static constexpr std::size_t kPrefetched = 12;  // triangles
+  static constexpr std::size_t kDrawnBeforeLook =
+      64;  // of the tile's samples, which costs as much as a few triangles
 
   template <class Triangle, class Draw>
-  HWY_INLINE void DrawEach(std::span<const Triangle> triangles, const TileLists& by_tile, Draw draw) {
-    const std::span<const std::uint32_t> here = by_tile.in_tile(task_.tile_x, task_.tile_y);
+  HWY_INLINE void DrawEach(std::span<const Triangle> triangles, const TileLists& by_tile, bool with_holes,
+                           Draw draw) {
+    const TileLists::List list = by_tile.in_tile(task_.tile_x, task_.tile_y, with_holes);
+    const std::span<const std::uint32_t> here = list.triangles;
+    if (here.empty()) return;
+    if (drawn_ >= kDrawnBeforeLook) LookHowFar();
+    if (list.nearest < FarthestOfAll()) return;
+    drawn_ += here.size();
     // Records were written by another pass, perhaps by another processor: they come from afar.
     for (std::size_t i = 0; i < std::min(kPrefetched, here.size()); ++i) hwy::Prefetch(&triangles[here[i]]);
     for (std::size_t i = 0; i < here.size(); ++i) {
@@ -382,6 +392,22 @@ class TileRaster {
       draw(t);
       if (HWY_UNLIKELY(asked_.count != 0)) Cut(t.id);
     }
+  }
+
+  // Small triangles side by side hide what is behind them, but none does so by itself.
+  HWY_NOINLINE void LookHowFar() {
+    if (!Sink::kOccludes) return;
+    for (std::size_t block = 0; block < kBlocks; ++block) {
+      farthest_[block] = sink_.Farthest(block * kBlockPixels);
+    }
+    drawn_ = 0;
+  }
+
+  [[nodiscard]] HWY_INLINE float FarthestOfAll() const {
+    const FloatTag d;
+    auto least = hn::Load(d, farthest_);
+    for (std::size_t i = kLanes; i < kBlocks; i += kLanes) least = hn::Min(least, hn::Load(d, farthest_ + i));
+    return hn::GetLane(hn::MinOfLanes(d, least));
   }
 
   // Whether the alpha cut must be asked about triangles of this kind.
@@ -585,6 +611,7 @@ class TileRaster {
 
   const TileTask& task_;
   Sink sink_;
+  std::size_t drawn_ = 0;                // triangles since farthest_ was found from the samples
   int tile_x_, tile_y_;                  // first pixel of the tile, from the view's origin
   float offset_x_, offset_y_;            // of the sample from its pixel's centre
   alignas(64) float farthest_[kBlocks];  // every sample of the block is at least this near

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/stopwatch.h"
 #include "raster/triangle_setup.h"
@@ -78,25 +79,17 @@ class ClusterPlacer {
   Halfspace near_, far_;
 };
 
-Rect tiles_of(const SmallTriangle& t, const RasterView& view, const Rect& pixels, int) {
-  const int x = t.x + view.origin_x, y = t.y + view.origin_y;
-  return {std::max(x, pixels.x_begin) >> kTileBits, std::max(y, pixels.y_begin) >> kTileBits,
-          ((std::min(x + t.columns, pixels.x_end) - 1) >> kTileBits) + 1,
-          ((std::min(y + t.rows, pixels.y_end) - 1) >> kTileBits) + 1};
+// The tiles of pixels that are given from the view's origin.
+Rect tiles_of(const Rect& box, const RasterView& view, const Rect& pixels) {
+  const int x = view.origin_x, y = view.origin_y;
+  return {std::max(box.x_begin + x, pixels.x_begin) >> kTileBits,
+          std::max(box.y_begin + y, pixels.y_begin) >> kTileBits,
+          ((std::min(box.x_end + x, pixels.x_end) - 1) >> kTileBits) + 1,
+          ((std::min(box.y_end + y, pixels.y_end) - 1) >> kTileBits) + 1};
 }
 
-Rect tiles_of(const WideTriangle& t, const RasterView& view, const Rect& pixels, int reach) {
-  const auto first = [&](const std::int32_t* v, int origin, int begin) {
-    const int low = std::min({v[0], v[1], v[2]});
-    return std::max(((low + kSubpixels / 2 - 1 - reach) >> kSubpixelBits) + origin, begin) >> kTileBits;
-  };
-  const auto last = [&](const std::int32_t* v, int origin, int end) {
-    const int high = std::max({v[0], v[1], v[2]});
-    return std::min(((high + reach - kSubpixels / 2) >> kSubpixelBits) + origin, end - 1) >> kTileBits;
-  };
-  return {first(t.x, view.origin_x, pixels.x_begin), first(t.y, view.origin_y, pixels.y_begin),
-          last(t.x, view.origin_x, pixels.x_end) + 1, last(t.y, view.origin_y, pixels.y_end) + 1};
-}
+Rect pixels_of(const WideTriangle& t, int reach) { return raster::pixels_of(t.x, t.y, reach); }
+Rect pixels_of(const SmallTriangle& t, int) { return {t.x, t.y, t.x + t.columns, t.y + t.rows}; }
 
 // Edge functions of a triangle at the corners of tiles, to leave out tiles that its bounding box touches and it does
 // not. Exact up to rounding, which is paid for by a margin of two pixels.
@@ -147,48 +140,44 @@ void for_each_tile(const WideTriangle& t, const RasterView& view, const Rect& ti
   }
 }
 
-// A triangle in one of the tiles that it touches.
-struct TileEntry {
-  std::uint16_t x, y;
-  std::uint32_t triangle;
+// A triangle in one of the lists of the tiles that it touches.
+struct ListEntry {
+  std::uint32_t list, triangle;
 };
 
-// Every tile of every triangle, in drawing order, and their bounds.
+// Every list of every triangle, in drawing order. Counts a list's entries two places beyond its own.
 template <class Triangle>
-Rect find_tile_entries(std::span<const Triangle> triangles, const RasterView& view, const BinOptions& options,
-                       std::vector<TileEntry>& entries) {
+void find_list_entries(std::span<const Triangle> triangles, const RasterView& view, const BinOptions& options,
+                       std::vector<ListEntry>& entries, TileLists& lists) {
   entries.clear();
-  if (triangles.empty()) return {};
-  Rect all = {1 << 20, 1 << 20, 0, 0};
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const Triangle& t = triangles[i];
-    const Rect tiles = tiles_of(t, view, options.pixels, options.sample_reach);
-    all = {std::min(all.x_begin, tiles.x_begin), std::min(all.y_begin, tiles.y_begin),
-           std::max(all.x_end, tiles.x_end), std::max(all.y_end, tiles.y_end)};
+    const Rect tiles = tiles_of(pixels_of(t, options.sample_reach), view, options.pixels);
+    const bool has_holes = (t.kind & kMasked) != 0;
     for_each_tile(t, view, tiles, [&](int x, int y) {
-      entries.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), i});
+      const std::size_t list = lists.list_number(x, y, has_holes);
+      entries.push_back({static_cast<std::uint32_t>(list), i});
+      ++lists.offsets[list + 2];
+      lists.nearest[list] = std::max(lists.nearest[list], t.q_max);
     });
   }
-  return all;
 }
 
-// Counting sort by tile, stable: drawing order is kept within each tile. `found`: scratch.
+// Counting sort by tile and holes, stable: drawing order is kept within each list. `found`: scratch.
 template <class Triangle>
-void sort_by_tile(std::span<const Triangle> triangles, const RasterView& view, const BinOptions& options,
-                  std::vector<TileEntry>& found, TileLists& lists) {
-  lists.tiles = find_tile_entries(triangles, view, options, found);
-  const Rect& all = lists.tiles;
-  const auto tile_index = [&](const TileEntry& entry) {
-    return static_cast<std::size_t>((entry.y - all.y_begin) * all.width() + entry.x - all.x_begin);
-  };
-  // Shifted by one place, the counts become where each tile starts, and then, entry by entry, where it ends: which is
+void sort_by_tile(std::span<const Triangle> triangles, const Rect& touched, const RasterView& view,
+                  const BinOptions& options, std::vector<ListEntry>& found, TileLists& lists) {
+  lists.tiles = triangles.empty() ? Rect() : tiles_of(touched, view, options.pixels);
+  const std::size_t count = 2 * static_cast<std::size_t>(lists.tiles.width() * lists.tiles.height());
+  lists.offsets.assign(count + 2, 0);
+  lists.nearest.assign(count, std::numeric_limits<float>::lowest());
+  find_list_entries(triangles, view, options, found, lists);
+  // Shifted by one place, the counts become where each list starts, and then, entry by entry, where it ends: which is
   // where the next one starts.
-  lists.offsets.assign(static_cast<std::size_t>(all.width() * all.height()) + 2, 0);
-  std::uint32_t* next = lists.offsets.data() + 1;
-  for (const TileEntry& entry : found) ++lists.offsets[tile_index(entry) + 2];
   for (std::size_t i = 2; i < lists.offsets.size(); ++i) lists.offsets[i] += lists.offsets[i - 1];
+  std::uint32_t* next = lists.offsets.data() + 1;
   lists.entries.resize(found.size());
-  for (const TileEntry& entry : found) lists.entries[next[tile_index(entry)]++] = entry.triangle;
+  for (const ListEntry& entry : found) lists.entries[next[entry.list]++] = entry.triangle;
   lists.offsets.pop_back();
 }
 
@@ -253,11 +242,12 @@ void TriangleBins::fill(const RasterView& view, const TriangleClusters& geometry
   if (batches_.size() < used_) batches_.resize(used_);
   const SetupView setup(view);
   const SetUpCluster set_up_cluster = set_up_cluster_for(options.instruction_set);
-  std::vector<std::vector<TileEntry>> scratch(static_cast<std::size_t>(pool.threads()));
+  std::vector<std::vector<ListEntry>> scratch(static_cast<std::size_t>(pool.threads()));
   pool.for_each(used_, [&](std::size_t index, int worker) {
     Batch& batch = batches_[index];
     batch.small.clear();
     batch.wide.clear();
+    batch.small_pixels = batch.wide_pixels = Rect::nowhere();
     const std::size_t first = index * kClustersPerBatch;
     const std::size_t count = std::min(kClustersPerBatch, visible.size() - first);
     batch.statistics = {};
@@ -267,9 +257,9 @@ void TriangleBins::fill(const RasterView& view, const TriangleClusters& geometry
     batch.statistics.triangles_binned = batch.small.size() + batch.wide.size();
     Stopwatch sort_watch;
     sort_watch.start();
-    std::vector<TileEntry>& found = scratch[static_cast<std::size_t>(worker)];
-    sort_by_tile<SmallTriangle>(batch.small, view, options, found, batch.small_by_tile);
-    sort_by_tile<WideTriangle>(batch.wide, view, options, found, batch.wide_by_tile);
+    std::vector<ListEntry>& found = scratch[static_cast<std::size_t>(worker)];
+    sort_by_tile<SmallTriangle>(batch.small, batch.small_pixels, view, options, found, batch.small_by_tile);
+    sort_by_tile<WideTriangle>(batch.wide, batch.wide_pixels, view, options, found, batch.wide_by_tile);
     batch.statistics.times[Stage::bin] = sort_watch.lap_ms();
   });
 }

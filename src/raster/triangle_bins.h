@@ -82,6 +82,15 @@ struct Rect {
   int x_begin = 0, y_begin = 0, x_end = 0, y_end = 0;
   [[nodiscard]] int width() const { return x_end - x_begin; }
   [[nodiscard]] int height() const { return y_end - y_begin; }
+  [[nodiscard]] bool is_empty() const { return x_begin >= x_end || y_begin >= y_end; }
+  /// Grows to hold `other`; `nowhere()` is where to start from.
+  void include(const Rect& other) {
+    x_begin = x_begin < other.x_begin ? x_begin : other.x_begin;
+    y_begin = y_begin < other.y_begin ? y_begin : other.y_begin;
+    x_end = x_end > other.x_end ? x_end : other.x_end;
+    y_end = y_end > other.y_end ? y_end : other.y_end;
+  }
+  static constexpr Rect nowhere() { return {1 << 30, 1 << 30, -(1 << 30), -(1 << 30)}; }
 };
 
 enum class CullFaces : std::uint8_t {
@@ -106,18 +115,28 @@ struct BinStatistics {
   StageTimes times;
 };
 
-/// Which triangles touch which tile.
+/// Which triangles touch which tile: first those that cover what they touch, then those with holes, which are better
+/// asked for where nothing stands in front.
 struct TileLists {
-  Rect tiles;                          // bounds of what the triangles touch
-  std::vector<std::uint32_t> offsets;  // tiles.width() * tiles.height() + 1, into entries
-  std::vector<std::uint32_t> entries;  // triangles, by tile
+  struct List {
+    std::span<const std::uint32_t> triangles;
+    float nearest;  ///< largest reversed depth of any of them
+  };
 
-  [[nodiscard]] std::span<const std::uint32_t> in_tile(int tile_x, int tile_y) const {
+  Rect tiles;                          // bounds of what the triangles touch
+  std::vector<std::uint32_t> offsets;  // into entries, two lists for each tile, and the end
+  std::vector<std::uint32_t> entries;  // triangles
+  std::vector<float> nearest;          // by list
+
+  [[nodiscard]] List in_tile(int tile_x, int tile_y, bool with_holes) const {
     if (tile_x < tiles.x_begin || tile_x >= tiles.x_end || tile_y < tiles.y_begin || tile_y >= tiles.y_end)
       return {};
-    const auto i =
-        static_cast<std::size_t>((tile_y - tiles.y_begin) * tiles.width() + tile_x - tiles.x_begin);
-    return {entries.data() + offsets[i], offsets[i + 1] - offsets[i]};
+    const std::size_t i = list_number(tile_x, tile_y, with_holes);
+    return {{entries.data() + offsets[i], offsets[i + 1] - offsets[i]}, nearest[i]};
+  }
+  [[nodiscard]] std::size_t list_number(int tile_x, int tile_y, bool with_holes) const {
+    const int tile = (tile_y - tiles.y_begin) * tiles.width() + tile_x - tiles.x_begin;
+    return 2 * static_cast<std::size_t>(tile) + (with_holes ? 1 : 0);
   }
 };
 
@@ -126,6 +145,7 @@ struct TileLists {
 struct Batch {
   AlignedVector<SmallTriangle> small;
   AlignedVector<WideTriangle> wide;
+  Rect small_pixels, wide_pixels;  // bounds of what they touch, from the view's origin
   TileLists small_by_tile, wide_by_tile;
   BinStatistics statistics;
 };

@@ -1,6 +1,8 @@
 // Set-up of one cluster: transform, clip, snap, cull, depth planes. See triangle_setup.simd.cc.
 #pragma once
 
+#include <algorithm>
+
 #include "raster/triangle_bins.h"
 
 namespace laterna::raster {
@@ -28,6 +30,18 @@ struct SetupTask {
   bool crossing;
   double* transform_ms = nullptr;  ///< unless null, what the transformation took is added here
 };
+
+/// Pixels from the view's origin that have samples in the bounds of three snapped corners. `reach`: of samples from the
+/// pixel's centre.
+inline Rect pixels_of(const std::int32_t* x, const std::int32_t* y, int reach) {
+  const auto first = [&](const std::int32_t* v) {
+    return (std::min({v[0], v[1], v[2]}) + kSubpixels / 2 - 1 - reach) >> kSubpixelBits;
+  };
+  const auto end = [&](const std::int32_t* v) {
+    return ((std::max({v[0], v[1], v[2]}) - kSubpixels / 2 + reach) >> kSubpixelBits) + 1;
+  };
+  return {first(x), first(y), end(x), end(y)};
+}
 
 /// Appends the cluster's surviving triangles to the batch.
 using SetUpCluster = void (*)(const SetupTask& task, Batch& batch);

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <glm/geometric.hpp>
 
 #include "base/stopwatch.h"
@@ -157,7 +159,7 @@ struct WideParts {
   std::uint32_t kind;
 };
 
-void EmitWide(const SnappedVertex* v, const WideParts& parts, Batch& batch) {
+void EmitWide(const SnappedVertex* v, const WideParts& parts, int reach, Batch& batch) {
   const int b = AreaOf(v) > 0 ? 1 : 2;
   const int c = 3 - b;
   batch.wide.push_back({{v[0].x, v[b].x, v[c].x},
@@ -169,6 +171,7 @@ void EmitWide(const SnappedVertex* v, const WideParts& parts, Batch& batch) {
                         parts.q_max,
                         parts.id,
                         parts.kind});
+  batch.wide_pixels.include(pixels_of(batch.wide.back().x, batch.wide.back().y, reach));
 }
 
 // One triangle's corners in double.
@@ -231,7 +234,7 @@ void SetUpClipped(const SetupTask& task, const ScreenVertices& screen, std::uint
   for (std::size_t i = 1; i + 1 < polygon.count; ++i) {
     const SnappedVertex fan[3] = {snapped[0], snapped[i], snapped[i + 1]};
     if (!TouchesPixels(task.options->pixels, view, task.options->sample_reach, fan)) continue;
-    if (!culling.Drops(AreaOf(fan))) EmitWide(fan, parts, batch);
+    if (!culling.Drops(AreaOf(fan))) EmitWide(fan, parts, task.options->sample_reach, batch);
   }
 }
 
@@ -249,40 +252,29 @@ void SetUpWide(const SetupTask& task, const ScreenVertices& screen, std::uint32_
   const Culling culling(cluster, task.options->cull);
   if (culling.Drops(AreaOf(snapped))) return;
   const WideCorners corners = LoadWideCorners(task, id);
-  EmitWide(snapped, PartsOf(task, corners, corners.clip, id), batch);
+  EmitWide(snapped, PartsOf(task, corners, corners.clip, id), task.options->sample_reach, batch);
 }
 
 // ---------------------------------------------------------------------------------------------- N at a time
 
-// The fields of N set-up triangles, on their way from vectors to records.
-struct SmallFields {
-  alignas(64) std::int32_t edge[3][16], x[16], y[16], columns[16], rows[16];
-  alignas(64) float edge_dx[2][16], edge_dy[2][16], q[16], q_dx[16], q_dy[16], q_min[16], q_max[16];
+// N records on their way from vectors to memory: words 4 k … 4 k + 3 of each, one record after the other.
+struct SmallRecords {
+  alignas(64) std::int32_t quarter[4][16][4];
 };
+static_assert(offsetof(SmallTriangle, edge_dx) == 12 && offsetof(SmallTriangle, x) == 28 &&
+              offsetof(SmallTriangle, kind) == 34 && offsetof(SmallTriangle, q) == 36 &&
+              offsetof(SmallTriangle, id) == 56);
 
-HWY_INLINE void EmitSmall(const SmallFields& fields, std::uint64_t mask, TriangleId first_id,
-                          std::uint32_t kind, Batch& batch) {
+HWY_INLINE void EmitSmall(const SmallRecords& records, std::uint64_t mask, Batch& batch) {
   const std::size_t before = batch.small.size();
   batch.small.resize(before + static_cast<std::size_t>(__builtin_popcountll(mask)));
-  SmallTriangle* t = batch.small.data() + before;
-  for (; mask != 0; mask &= mask - 1, ++t) {
+  auto* to = reinterpret_cast<unsigned char*>(batch.small.data() + before);
+  for (; mask != 0; mask &= mask - 1) {
     const auto i = static_cast<std::size_t>(__builtin_ctzll(mask));
-    for (int k = 0; k < 3; ++k) t->edge[k] = fields.edge[k][i];
-    for (int k = 0; k < 2; ++k) {
-      t->edge_dx[k] = fields.edge_dx[k][i];
-      t->edge_dy[k] = fields.edge_dy[k][i];
+    for (const auto& quarter : records.quarter) {
+      std::memcpy(to, quarter[i], sizeof(quarter[i]));
+      to += sizeof(quarter[i]);
     }
-    t->x = static_cast<std::int16_t>(fields.x[i]);
-    t->y = static_cast<std::int16_t>(fields.y[i]);
-    t->columns = static_cast<std::uint8_t>(fields.columns[i]);
-    t->rows = static_cast<std::uint8_t>(fields.rows[i]);
-    t->kind = static_cast<std::uint16_t>(kind);
-    t->q = fields.q[i];
-    t->q_dx = fields.q_dx[i];
-    t->q_dy = fields.q_dy[i];
-    t->q_min = fields.q_min[i];
-    t->q_max = fields.q_max[i];
-    t->id = first_id + static_cast<std::uint32_t>(i);
   }
 }
 
@@ -407,41 +399,75 @@ HWY_INLINE hn::Mask<IntTag> MissSamples(const SmallEdges& edges, const PixelBoxe
   return misses;
 }
 
-HWY_INLINE void StoreEdges(const SmallEdges& edges, const PixelBoxes& box, SmallFields& fields) {
-  const FloatTag d;
-  const IntTag di;
-  for (int i = 0; i < 3; ++i) hn::Store(edges.at[i], di, fields.edge[i]);
-  for (int i = 0; i < 2; ++i) {
-    hn::Store(hn::ConvertTo(d, edges.dx[i]), d, fields.edge_dx[i]);
-    hn::Store(hn::ConvertTo(d, edges.dy[i]), d, fields.edge_dy[i]);
-  }
-  hn::Store(box.x_first, di, fields.x);
-  hn::Store(box.y_first, di, fields.y);
-  hn::Store(box.x_last - box.x_first + hn::Set(di, 1), di, fields.columns);
-  hn::Store(box.y_last - box.y_first + hn::Set(di, 1), di, fields.rows);
-}
+// Reversed depth at the centre of the first pixel of each triangle, and its change from there.
+struct SmallDepths {
+  FloatVector at, dx, dy, min, max;
+};
 
-// The depth plane, from positions before snapping.
-HWY_INLINE void StoreDepth(const Corners& c, const FloatVector* q, const PixelBoxes& box,
-                           SmallFields& fields) {
+// From positions before snapping.
+HWY_INLINE SmallDepths FindDepths(const Corners& c, const FloatVector* q, const PixelBoxes& box) {
   const FloatTag d;
   const auto ux = c.x[1] - c.x[0], uy = c.y[1] - c.y[0], uq = q[1] - q[0];
   const auto vx = c.x[2] - c.x[0], vy = c.y[2] - c.y[0], vq = q[2] - q[0];
   const auto determinant = ux * vy - vx * uy;
-  // A sliver has no gradient worth the name; q_min and q_max bound it to the truth.
+  // A sliver has no gradient worth the name; the extremes bound it to the truth.
   const auto is_flat = hn::Abs(determinant) < hn::Set(d, 1e-9F);
   const auto inverse = hn::Set(d, 1.0F) / hn::IfThenElse(is_flat, hn::Set(d, 1.0F), determinant);
-  const auto q_dx = hn::IfThenZeroElse(is_flat, (uq * vy - vq * uy) * inverse);
-  const auto q_dy = hn::IfThenZeroElse(is_flat, (vq * ux - uq * vx) * inverse);
+  SmallDepths depths;
+  depths.dx = hn::IfThenZeroElse(is_flat, (uq * vy - vq * uy) * inverse);
+  depths.dy = hn::IfThenZeroElse(is_flat, (vq * ux - uq * vx) * inverse);
   const auto half = hn::Set(d, 0.5F);
-  const auto dx = hn::ConvertTo(d, box.x_first) + half - c.x[0],
-             dy = hn::ConvertTo(d, box.y_first) + half - c.y[0];
-  hn::Store(q[0] + (q_dx * dx + q_dy * dy), d, fields.q);
-  hn::Store(q_dx, d, fields.q_dx);
-  hn::Store(q_dy, d, fields.q_dy);
-  hn::Store(Min3(q[0], q[1], q[2]), d, fields.q_min);
-  hn::Store(Max3(q[0], q[1], q[2]), d, fields.q_max);
+  const auto x = hn::ConvertTo(d, box.x_first) + half - c.x[0],
+             y = hn::ConvertTo(d, box.y_first) + half - c.y[0];
+  depths.at = q[0] + (depths.dx * x + depths.dy * y);
+  depths.min = Min3(q[0], q[1], q[2]);
+  depths.max = Max3(q[0], q[1], q[2]);
+  return depths;
 }
+
+HWY_INLINE void Store(const SmallEdges& edges, const PixelBoxes& box, const SmallDepths& depths,
+                      TriangleId first_id, std::uint32_t kind, SmallRecords& records) {
+  const FloatTag d;
+  const IntTag di;
+  const auto as_float = [&](IntVector v) HWY_ATTR { return hn::BitCast(di, hn::ConvertTo(d, v)); };
+  const auto bits = [&](FloatVector v) HWY_ATTR { return hn::BitCast(di, v); };
+  const auto one = hn::Set(di, 1), low_half = hn::Set(di, 0xFFFF);
+  const auto place = hn::Or(hn::And(box.x_first, low_half), hn::ShiftLeft<16>(box.y_first));
+  const auto size = hn::Or(box.x_last - box.x_first + one, hn::ShiftLeft<8>(box.y_last - box.y_first + one));
+  const auto size_and_kind = hn::Or(size, hn::Set(di, static_cast<std::int32_t>(kind << 16U)));
+  hn::StoreInterleaved4(edges.at[0], edges.at[1], edges.at[2], as_float(edges.dx[0]), di,
+                        records.quarter[0][0]);
+  hn::StoreInterleaved4(as_float(edges.dx[1]), as_float(edges.dy[0]), as_float(edges.dy[1]), place, di,
+                        records.quarter[1][0]);
+  hn::StoreInterleaved4(size_and_kind, bits(depths.at), bits(depths.dx), bits(depths.dy), di,
+                        records.quarter[2][0]);
+  hn::StoreInterleaved4(bits(depths.min), bits(depths.max), hn::Iota(di, static_cast<std::int32_t>(first_id)),
+                        hn::Zero(di), di, records.quarter[3][0]);
+}
+
+// Bounds of the boxes of all small triangles of a cluster.
+class SmallBounds {
+ public:
+  HWY_INLINE SmallBounds() {
+    const IntTag di;
+    x_first_ = y_first_ = hn::Set(di, 1 << 28);
+    x_last_ = y_last_ = hn::Set(di, -(1 << 28));
+  }
+  HWY_INLINE void Include(const PixelBoxes& box, hn::Mask<IntTag> small) {
+    x_first_ = hn::IfThenElse(small, hn::Min(x_first_, box.x_first), x_first_);
+    y_first_ = hn::IfThenElse(small, hn::Min(y_first_, box.y_first), y_first_);
+    x_last_ = hn::IfThenElse(small, hn::Max(x_last_, box.x_last), x_last_);
+    y_last_ = hn::IfThenElse(small, hn::Max(y_last_, box.y_last), y_last_);
+  }
+  [[nodiscard]] Rect Pixels() const {
+    const IntTag di;
+    return {hn::GetLane(hn::MinOfLanes(di, x_first_)), hn::GetLane(hn::MinOfLanes(di, y_first_)),
+            hn::GetLane(hn::MaxOfLanes(di, x_last_)) + 1, hn::GetLane(hn::MaxOfLanes(di, y_last_)) + 1};
+  }
+
+ private:
+  IntVector x_first_, y_first_, x_last_, y_last_;
+};
 
 HWY_INLINE std::uint64_t BitsOf(hn::Mask<IntTag> mask) {
   std::uint8_t bits[8] = {};
@@ -460,7 +486,8 @@ void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& bat
   const PixelBounds pixels(view, *task.options);
   const auto limit = hn::Set(di, kSmallTriangle * kSubpixels);
   const bool has_one_sample = task.options->sample_reach == 0;
-  SmallFields fields;
+  SmallRecords records;
+  SmallBounds bounds;
 
   for (std::uint32_t first = 0; first < cluster.triangle_count; first += kLanes) {
     const Corners c = LoadCorners(task, screen, first_id + first);
@@ -491,10 +518,11 @@ void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& bat
     const SmallEdges edges = FindEdges(c, box, area < hn::Zero(di));
     if (has_one_sample) small = hn::AndNot(MissSamples(edges, box), small);
     if (hn::AllFalse(di, small)) continue;
-    StoreEdges(edges, box, fields);
-    StoreDepth(c, q, box, fields);
-    EmitSmall(fields, BitsOf(small), first_id + first, kind, batch);
+    Store(edges, box, FindDepths(c, q, box), first_id + first, kind, records);
+    EmitSmall(records, BitsOf(small), batch);
+    bounds.Include(box, small);
   }
+  batch.small_pixels.include(bounds.Pixels());
 }
 
 void set_up_cluster(const SetupTask& task, Batch& batch) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <glm/vec4.hpp>
+#include <limits>
 
 #include "frame/frame.h"
 #include "laterna/shading.h"
@@ -19,6 +20,9 @@ class LightReach {
  public:
   LightReach(const frame::PlacedLight& placed, ShadingModel model);
 
+  [[nodiscard]] bool is_everywhere() const {
+    return halfspace_count_ == 0 && range_squared_ == std::numeric_limits<float>::infinity();
+  }
   /// False only where the light surely gives nothing in the whole box.
   [[nodiscard]] bool touches(const frame::Bounds& box) const;
 

@@ -66,6 +66,9 @@ class TileShader::Worker {
         radiance_(std::make_unique<Radiance>()),
         layers_(*job.frame, *job.view, job.wanted, result_) {
     samples_->ray = job.view->homogeneous_ray();
+    has_lights_to_leave_out_ =
+        std::any_of(job.lights.begin(), job.lights.end(),
+                    [](const ShaderLight& light) { return !light.reach.is_everywhere(); });
   }
 
   const TileResult& shade(int tile_x, int tile_y) {
@@ -233,8 +236,9 @@ class TileShader::Worker {
       if (!sums) scatter(*samples_, *radiance_, targets[0]);
     }
     // Planes of the picture start dark; of fragments, every value is written.
-    const bool may_leave_out = is_opaque && !wants_arrival(is_opaque) && !keeps_illumination();
-    const frame::Bounds bounds = bounds_of(*samples_);
+    const bool may_leave_out =
+        has_lights_to_leave_out_ && is_opaque && !wants_arrival(is_opaque) && !keeps_illumination();
+    const frame::Bounds bounds = may_leave_out ? bounds_of(*samples_) : frame::Bounds();
     for (std::size_t light = part.first_light; light < part.end_light; ++light) {
       if (surface.unlit && !wants_arrival(is_opaque)) continue;
       const ShaderLight& shader_light = job_.lights[light];
@@ -404,6 +408,7 @@ class TileShader::Worker {
   TilePlane coverage_;
   FragmentList fragments_;
   std::vector<float> fragment_values_;
+  bool has_lights_to_leave_out_ = false;
   std::vector<TileColor> planes_;
   SurfaceGroups groups_;
   std::unique_ptr<SurfaceSamples> samples_;
