@@ -6,6 +6,8 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <thread>
 
@@ -161,15 +163,24 @@ int run(const Options& options) {
   return is_whole ? 0 : 1;
 }
 
-}  // namespace
-}  // namespace laterna::growth
-
-int main(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   CLI::App app("How the cost of a frame grows, as tables in Markdown");
-  laterna::growth::Options options;
+  Options options;
   app.add_flag("--quick", options.quick, "one round, without the largest rows");
   app.add_option("--only", options.only, "one table, such as triangles");
   app.add_option("--workloads", options.workloads, "file of workloads to add, see laterna bench --workload");
   CLI11_PARSE(app, argc, argv);
-  return laterna::growth::run(options);
+  return run(options);
+}
+
+}  // namespace
+}  // namespace laterna::growth
+
+int main(int argc, char** argv) {
+  try {
+    return laterna::growth::parse_and_run(argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "growth_bench: %s\n", e.what());
+    return 1;
+  }
 }
