@@ -155,12 +155,14 @@ int run(const Options& options) {
   Effort effort;
   effort.rounds = options.quick ? 1 : 3;
   effort.series = {1, options.quick ? 1 : 3};
-  bool is_whole = true;
+  bool is_whole = true, is_known = false;
   for (const Table& table : tables_of(options)) {
     if (!options.only.empty() && table.name != options.only) continue;
+    is_known = true;
     is_whole = print_growth(table, effort) && is_whole;
   }
-  return is_whole ? 0 : 1;
+  if (!is_known) fmt::print(stderr, "there is no table \"{}\"\n", options.only);
+  return is_whole && is_known ? 0 : 1;
 }
 
 int parse_and_run(int argc, char** argv) {
