@@ -370,8 +370,8 @@ class TileRaster {
  private:
   static constexpr std::size_t kBlocks = std::size_t{kBlocksPerSide} * kBlocksPerSide;
   static constexpr std::size_t kPrefetched = 12;  // triangles
-  static constexpr std::size_t kDrawnBeforeLook =
-      64;  // of the tile's samples, which costs as much as a few triangles
+  // Looking at all of a tile's samples costs as much as a few dozen triangles.
+  static constexpr std::size_t kDrawnBeforeLook = 128;
 
   template <class Triangle, class Draw>
   HWY_INLINE void DrawEach(std::span<const Triangle> triangles, const TileLists& by_tile, bool with_holes,

@@ -36,9 +36,9 @@ shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowV
   return map;
 }
 
-shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
-                                CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn) {
-  shadow::DepthMap map = make_depth_map(context, shadow_view, faces, keeps_triangles, std::move(outworn));
+namespace {
+
+void draw_tiles(const DrawContext& context, shadow::DepthMap& map) {
   std::vector<double> raster_ms(static_cast<std::size_t>(context.pool.threads()));
   context.pool.for_each(map.tile_count(), [&](std::size_t i, int worker) {
     Stopwatch watch;
@@ -48,21 +48,36 @@ shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowV
   });
   map.rest();
   for (const double ms : raster_ms) context.times[Stage::raster] += ms;
+}
+
+}  // namespace
+
+shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
+                                CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn) {
+  shadow::DepthMap map = make_depth_map(context, shadow_view, faces, keeps_triangles, std::move(outworn));
+  draw_tiles(context, map);
   return map;
 }
 
 DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& key,
-                                         const DrawContext& context, bool anew) {
+                                         const DrawContext& context, bool anew, TileDrawing drawing) {
   std::unique_lock list_lock(mutex_);
   Entry& entry = entries_[light];  // stays where it is
   list_lock.unlock();
   const std::lock_guard lock(entry.mutex);
-  if (!anew && !entry.maps.empty() && entry.key == key) return {entry.maps, 0};
+  const auto settle = [&](shadow::DepthMap& map) {
+    if (drawing == TileDrawing::at_once && !map.is_complete()) draw_tiles(context, map);
+  };
+  if (!anew && !entry.maps.empty() && entry.key == key) {
+    for (const auto& map : entry.maps) settle(*map);
+    return {entry.maps, 0};
+  }
   entry.maps.clear();
   DepthMaps maps;
   for (const light::ShadowView& view : key.views) {
     auto lease = outworn_.take();
     *lease = make_depth_map(context, view, key.faces, key.keeps_triangles, std::move(*lease));
+    settle(*lease);
     maps.push_back(std::move(lease));
   }
   outworn_.clear();

@@ -33,6 +33,9 @@ struct DrawContext {
   StageTimes& times;  // what is done here and now is added
 };
 
+/// When tiles are drawn: a map that waits to be asked holds on to its sorted casters until the picture is done.
+enum class TileDrawing : std::uint8_t { when_asked, at_once };
+
 /// A depth map whose tiles are drawn as they are asked for. `outworn`: see DepthMap.
 shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
                                 CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn = {});
@@ -48,7 +51,8 @@ class DepthMapCache {
   };
   /// The maps of light `light`, made anew if those kept are of something else. Callers that ask for the same light at
   /// the same time wait. `anew`: in any case.
-  Found find(std::size_t light, const DepthMapKey& key, const DrawContext& context, bool anew);
+  Found find(std::size_t light, const DepthMapKey& key, const DrawContext& context, bool anew,
+             TileDrawing drawing);
   /// Frees what only drawing needs, when nobody draws.
   void rest();
 

@@ -37,6 +37,17 @@ int band_count(const frame::Frame& frame, int tile_rows) {
 
 int tiles_across(int pixels) { return (pixels + raster::kTileSide - 1) / raster::kTileSide; }
 
+// Maps whose tiles wait to be asked for hold their sorted casters, all at the same time, in no more than this. Where
+// there are more of them, each map is drawn as a whole before the next.
+constexpr std::size_t kCasterMemory = std::size_t{1} << 30U;
+
+render::TileDrawing tile_drawing(const frame::Frame& frame, const light::LightPlan& plan) {
+  std::size_t maps = 0;
+  for (const light::PlannedLight& planned : plan.lights) maps += planned.shadow_views.size();
+  const std::size_t bytes = maps * frame.triangle_count() * sizeof(raster::SmallTriangle);
+  return bytes <= kCasterMemory ? render::TileDrawing::when_asked : render::TileDrawing::at_once;
+}
+
 // The door of every call that may need much memory.
 template <class Work>
 auto guarded(Work work) -> decltype(work()) {
@@ -101,7 +112,8 @@ struct Renderer::Implementation {
 
   std::unique_ptr<shadow::ShadowTechnique> make_technique(
       const light::PlannedLight& planned, std::size_t index, const raster::RasterView::Ray& ray,
-      const RenderSettings& settings, RenderStatistics& statistics, ProgressReport& progress) const {
+      const RenderSettings& settings, RenderStatistics& statistics, render::TileDrawing drawing,
+      ProgressReport& progress) const {
     switch (planned.technique) {
       case ShadowTechnique::none:
         return nullptr;
@@ -112,8 +124,8 @@ struct Renderer::Implementation {
     }
     const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
                                      planned.settings.filter == ShadowFilter::refined, casters_revision};
-    const render::DepthMapCache::Found found =
-        maps.find(index, key, {frame, pool, bins, set, statistics.map_stages}, !settings.keep_shadow_maps);
+    const render::DepthMapCache::Found found = maps.find(
+        index, key, {frame, pool, bins, set, statistics.map_stages}, !settings.keep_shadow_maps, drawing);
     statistics.maps_drawn += found.made;
     statistics.maps_kept += static_cast<int>(found.maps.size()) - found.made;
     RenderStatistics::LightMemory memory = {planned.placed->light->name, static_cast<int>(found.maps.size()),
@@ -142,12 +154,13 @@ struct Renderer::Implementation {
     job.wanted = render::wanted_layers(settings);
     job.instruction_set = set;
     const raster::RasterView::Ray ray = view.homogeneous_ray();
+    const render::TileDrawing drawing = tile_drawing(frame, plan);
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
       if (progress.is_cancelled()) break;
       job.lights.push_back({bound, shade::LightReach(*planned.placed, settings.shading),
-                            make_technique(planned, i, ray, settings, statistics, progress)});
+                            make_technique(planned, i, ray, settings, statistics, drawing, progress)});
       if (job.wanted.lux && settings.shading == ShadingModel::papers) {
         job.physical_lights.emplace_back(*planned.placed, ray, ShadingModel::phong, settings.anisotropy);
       }
