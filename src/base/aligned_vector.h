@@ -11,21 +11,28 @@ namespace laterna {
 
 inline constexpr std::size_t kCacheLine = 64;
 
-/// `bytes` on a cache line, or in large pages where that pays. Throws std::bad_alloc.
-void* allocate_aligned(std::size_t bytes);
-void free_aligned(void* memory, std::size_t bytes);
+/// Small pages suit arrays of which only parts are touched: the rest then takes no memory.
+enum class Pages : bool { small, large };
 
-template <class T>
+/// `bytes` on a cache line; `large`: in large pages where that pays. Throws std::bad_alloc.
+void* allocate_aligned(std::size_t bytes, Pages pages);
+void free_aligned(void* memory, std::size_t bytes, Pages pages);
+
+template <class T, Pages kPages>
 struct CacheLineAllocator {
   using value_type = T;
   CacheLineAllocator() = default;
   template <class U>
-  CacheLineAllocator(const CacheLineAllocator<U>&) {}  // NOLINT: allocators convert
+  struct rebind {
+    using other = CacheLineAllocator<U, kPages>;
+  };
+  template <class U>
+  CacheLineAllocator(const CacheLineAllocator<U, kPages>&) {}  // NOLINT: allocators convert
   T* allocate(std::size_t count) {
     if (count > std::size_t(-1) / sizeof(T)) throw std::bad_array_new_length();
-    return static_cast<T*>(allocate_aligned(count * sizeof(T)));
+    return static_cast<T*>(allocate_aligned(count * sizeof(T), kPages));
   }
-  void deallocate(T* memory, std::size_t count) { free_aligned(memory, count * sizeof(T)); }
+  void deallocate(T* memory, std::size_t count) { free_aligned(memory, count * sizeof(T), kPages); }
   /// Leaves new elements uninitialised: large buffers are written by the threads that use them.
   template <class U>
   void construct(U* element) {
@@ -40,6 +47,9 @@ struct CacheLineAllocator {
 
 /// Elements made by resize() are not initialised.
 template <class T>
-using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
+using AlignedVector = std::vector<T, CacheLineAllocator<T, Pages::large>>;
+/// The same, in small pages.
+template <class T>
+using SparseAlignedVector = std::vector<T, CacheLineAllocator<T, Pages::small>>;
 
 }  // namespace laterna

@@ -120,15 +120,15 @@ class DepthMap {
 
   // Contents are not kept, and no more memory than is needed.
   template <class T>
-  static void resize(AlignedVector<T>& values, std::size_t count) {
-    if (values.capacity() != count) values = AlignedVector<T>();
+  static void resize(SparseAlignedVector<T>& values, std::size_t count) {
+    if (values.capacity() != count) values = SparseAlignedVector<T>();
     values.resize(count);
   }
 
   raster::RasterView view_;
   int tiles_x_ = 0, tiles_y_ = 0;
-  AlignedVector<float> texels_;
-  AlignedVector<TriangleId> triangles_;
+  SparseAlignedVector<float> texels_;
+  SparseAlignedVector<TriangleId> triangles_;
   std::unique_ptr<TilePainter> painter_;
   std::unique_ptr<TileStates> states_;  // null: all drawn
 };
