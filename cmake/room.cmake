@@ -12,8 +12,9 @@ macro(laterna_room name)
     # values stay in registers.
     set(room_kernels ${room_sources})
     list(FILTER room_kernels INCLUDE REGEX "\\.simd\\.cc$")
-    set_source_files_properties(${room_kernels} PROPERTIES
-      COMPILE_OPTIONS "$<$<CONFIG:Release>:$<IF:$<BOOL:${LATERNA_SANITIZE}>,,-O3>>")
+    if(NOT LATERNA_SANITIZE)
+      set_source_files_properties(${room_kernels} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>")
+    endif()
     list(APPEND LATERNA_ROOMS ${name})
   else()
     add_library(room_${name} INTERFACE)

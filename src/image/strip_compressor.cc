@@ -40,7 +40,7 @@ void StripCompressor::append(std::span<const std::byte> strip, bool is_last, std
     stream.next_out = reinterpret_cast<std::uint8_t*>(to.data() + done);
     stream.avail_out = kRoom;
     isal_deflate(&stream);
-    to.resize(to.size() - stream.avail_out);
+    to.resize(done + (kRoom - stream.avail_out));
   } while (stream.avail_out == 0);
 }
 

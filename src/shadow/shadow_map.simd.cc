@@ -23,8 +23,10 @@ void look_up_shadow_map(const ShadowMapTest& test, const SurfaceSamples& samples
                         std::span<const std::uint16_t> wanted, float* alpha) {
   RefinementList unsure;
   for (std::size_t group = 0; group < samples.group_count; ++group) {
-    if (wanted[group] == 0) continue;
     for (std::size_t k = 0; k < kGroupSize; k += kLanes) {
+      // Lanes that nobody asks about may read tiles that are not drawn: numbers that nobody uses.
+      const std::uint32_t asked = std::uint32_t{wanted[group]} >> k & ((1U << kLanes) - 1);
+      if (asked == 0) continue;
       const std::size_t i = group * kGroupSize + k;
       const Points points = LoadPoints(samples, i);
       auto result = Splat(test.outside_is_lit ? 1.0F : 0.0F);
@@ -40,7 +42,7 @@ void look_up_shadow_map(const ShadowMapTest& test, const SurfaceSamples& samples
         }
       });
       hn::Store(result, FloatTag(), alpha + i);
-      unsure.Add(i, is_unsure, static_cast<std::uint32_t>(wanted[group]) >> k);
+      unsure.Add(i, is_unsure, asked);
     }
   }
   unsure.Refine(test, samples, alpha);
