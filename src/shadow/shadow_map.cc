@@ -52,9 +52,7 @@ ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::sh
                      const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
                      InstructionSet set, std::function<bool()> asks_to_stop)
     : maps_(maps.begin(), maps.end()), asks_to_stop_(std::move(asks_to_stop)) {
-  for (std::size_t i = 0; i < maps.size(); ++i) {
-    test_.maps.push_back(bind(*maps[i], ray));
-  }
+  for (const auto& map : maps) test_.maps.push_back(bind(*map, ray));
   test_.bias = bias_of(planned.settings);
   test_.filter = filter_of(planned.settings);
   test_.frame = &frame;

@@ -67,11 +67,13 @@ TEST(DepthMap, ManyThreadsGetEachTileDrawnOnce) {
   DepthMap map(view_of(512), false);
   map.set_painter(std::make_unique<NumberPainter>(calls));
   std::vector<std::thread> threads;
+  threads.reserve(8);
   for (int t = 0; t < 8; ++t) {
     threads.emplace_back([&map] {
       for (int i = 0; i < 64; ++i) {
-        map.require(i % 8, i / 8);
-        EXPECT_EQ(map.reversed_depth(64 * (i % 8), 64 * (i / 8)), static_cast<float>(10 * (i / 8) + i % 8));
+        const int x = i % 8, y = i / 8;
+        map.require(x, y);
+        EXPECT_EQ(map.reversed_depth(64 * x, 64 * y), static_cast<float>(10 * y + x));
       }
     });
   }
