@@ -36,7 +36,13 @@ struct Loop {
 
   void run(int worker) {
     observe(this);
-    for (std::size_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) body(i, worker);
+    try {
+      for (std::size_t i = next.fetch_add(1); i < count; i = next.fetch_add(1)) body(i, worker);
+    } catch (...) {
+      next = count;  // nobody begins anything more
+      publish(this);
+      throw;
+    }
     publish(this);
   }
 };

@@ -20,7 +20,7 @@ class TaskPool {
 
   /// Calls body(index, worker) once for each index in [0, count), indices handed out in order; worker in
   /// [0, threads()) is distinct among calls that run at the same time, so it may pick a scratch buffer.
-  /// Returns when all are done. `body` must not throw.
+  /// Returns when all are done. What `body` throws (std::bad_alloc) ends the loop and is thrown on, the first of several.
   void for_each(std::size_t count, const std::function<void(std::size_t index, int worker)>& body) const;
 
  private:

@@ -354,6 +354,8 @@ class TileRaster {
         offset_x_(static_cast<float>(task.offset_x) / kSubpixels),
         offset_y_(static_cast<float>(task.offset_y) / kSubpixels) {
     std::fill_n(farthest_, kBlocks, task.view->reversed_far);
+    // What is drawn over stays as it is.
+    if (!Sink::kOccludes) LookHowFar();
   }
 
   void DrawAll() {
@@ -379,7 +381,7 @@ class TileRaster {
     const TileLists::List list = by_tile.in_tile(task_.tile_x, task_.tile_y, with_holes);
     const std::span<const std::uint32_t> here = list.triangles;
     if (here.empty()) return;
-    if (drawn_ >= kDrawnBeforeLook) LookHowFar();
+    if (Sink::kOccludes && drawn_ >= kDrawnBeforeLook) LookHowFar();
     if (list.nearest < FarthestOfAll()) return;
     drawn_ += here.size();
     // Records were written by another pass, perhaps by another processor: they come from afar.
@@ -396,7 +398,6 @@ class TileRaster {
 
   // Small triangles side by side hide what is behind them, but none does so by itself.
   HWY_NOINLINE void LookHowFar() {
-    if (!Sink::kOccludes) return;
     for (std::size_t block = 0; block < kBlocks; ++block) {
       farthest_[block] = sink_.Farthest(block * kBlockPixels);
     }

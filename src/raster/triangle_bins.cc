@@ -276,4 +276,16 @@ BinStatistics TriangleBins::statistics() const {
   return sum;
 }
 
+std::size_t TriangleBins::memory_bytes() const {
+  const auto bytes = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  std::size_t sum = 0;
+  for (const Batch& batch : batches_) {
+    sum += bytes(batch.small) + bytes(batch.wide);
+    for (const TileLists* lists : {&batch.small_by_tile, &batch.wide_by_tile}) {
+      sum += bytes(lists->offsets) + bytes(lists->entries) + bytes(lists->nearest);
+    }
+  }
+  return sum;
+}
+
 }  // namespace laterna::raster

@@ -159,6 +159,8 @@ class TriangleBins {
 
   [[nodiscard]] std::span<const Batch> batches() const { return {batches_.data(), used_}; }
   [[nodiscard]] BinStatistics statistics() const;
+  /// What is held, also from earlier fillings.
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   std::vector<Batch> batches_;

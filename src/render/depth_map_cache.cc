@@ -38,9 +38,11 @@ shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowV
 
 namespace {
 
-void draw_tiles(const DrawContext& context, shadow::DepthMap& map) {
+void draw_tiles(const DrawContext& context, shadow::DepthMap& map,
+                const std::function<bool()>& asks_to_stop) {
   std::vector<double> raster_ms(static_cast<std::size_t>(context.pool.threads()));
   context.pool.for_each(map.tile_count(), [&](std::size_t i, int worker) {
+    if (asks_to_stop && asks_to_stop()) return;
     Stopwatch watch;
     watch.start();
     map.require(static_cast<int>(i) % map.tiles_x(), static_cast<int>(i) / map.tiles_x());
@@ -55,18 +57,24 @@ void draw_tiles(const DrawContext& context, shadow::DepthMap& map) {
 shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
                                 CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn) {
   shadow::DepthMap map = make_depth_map(context, shadow_view, faces, keeps_triangles, std::move(outworn));
-  draw_tiles(context, map);
+  draw_tiles(context, map, nullptr);
   return map;
 }
 
 DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& key,
-                                         const DrawContext& context, bool anew, TileDrawing drawing) {
+                                         const DrawContext& context, bool anew, std::size_t& working_bytes,
+                                         const std::function<bool()>& asks_to_stop) {
   std::unique_lock list_lock(mutex_);
   Entry& entry = entries_[light];  // stays where it is
   list_lock.unlock();
   const std::lock_guard lock(entry.mutex);
   const auto settle = [&](shadow::DepthMap& map) {
-    if (drawing == TileDrawing::at_once && !map.is_complete()) draw_tiles(context, map);
+    const std::size_t bytes = map.working_bytes();
+    if (working_bytes + bytes <= kMaxWorkingBytes) {
+      working_bytes += bytes;
+    } else {
+      draw_tiles(context, map, asks_to_stop);
+    }
   };
   if (!anew && !entry.maps.empty() && entry.key == key) {
     for (const auto& map : entry.maps) settle(*map);
@@ -92,6 +100,7 @@ void DepthMapCache::rest() {
     const std::lock_guard lock(entry.mutex);
     for (const auto& map : entry.maps) map->rest();
   }
+  outworn_.clear();
 }
 
 }  // namespace laterna::render

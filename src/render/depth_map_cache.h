@@ -1,6 +1,7 @@
 // Shadow maps, drawn when needed and kept while nothing they show has changed (rows 77, 78, 105).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -33,8 +34,9 @@ struct DrawContext {
   StageTimes& times;  // what is done here and now is added
 };
 
-/// When tiles are drawn: a map that waits to be asked holds on to its sorted casters until the picture is done.
-enum class TileDrawing : std::uint8_t { when_asked, at_once };
+/// Sorted casters that the maps of one picture hold until it is done, in bytes. Maps beyond it are drawn whole, one after
+/// the other.
+inline constexpr std::size_t kMaxWorkingBytes = std::size_t{1} << 30U;
 
 /// A depth map whose tiles are drawn as they are asked for. `outworn`: see DepthMap.
 shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
@@ -50,9 +52,10 @@ class DepthMapCache {
     int made = 0;  // 0: all were kept
   };
   /// The maps of light `light`, made anew if those kept are of something else. Callers that ask for the same light at
-  /// the same time wait. `anew`: in any case.
+  /// the same time wait. `anew`: in any case. `working_bytes`: of the picture's maps so far. `asks_to_stop` is called
+  /// between tiles; once it says so, maps may have tiles that are not drawn.
   Found find(std::size_t light, const DepthMapKey& key, const DrawContext& context, bool anew,
-             TileDrawing drawing);
+             std::size_t& working_bytes, const std::function<bool()>& asks_to_stop);
   /// Frees what only drawing needs, when nobody draws.
   void rest();
 

@@ -32,6 +32,7 @@ DepthMapPainter::Bins DepthMapPainter::sort_casters(const raster::RasterView& vi
   } else {
     lease->fill(view, frame_.geometry(), options, TaskPool(1));
   }
+  working_bytes_ = lease->memory_bytes();
   bins_ = std::move(lease);
   return bins_;
 }

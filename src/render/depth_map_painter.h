@@ -1,6 +1,7 @@
 // Tiles of shadow maps, drawn by the camera's own raster code (row 76).
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 
@@ -25,6 +26,7 @@ class DepthMapPainter final : public shadow::TilePainter {
   StageTimes prepare(const raster::RasterView& view, const TaskPool& pool);
   void paint(const raster::RasterView& view, int tile_x, int tile_y, float* depth, TriangleId* ids) override;
   void rest() override;
+  [[nodiscard]] std::size_t working_bytes() const override { return working_bytes_; }
 
  private:
   using Bins = std::shared_ptr<const raster::TriangleBins>;
@@ -37,6 +39,7 @@ class DepthMapPainter final : public shadow::TilePainter {
   CasterFaces faces_;
   std::mutex mutex_;
   Bins bins_;  // null while resting
+  std::atomic<std::size_t> working_bytes_ = 0;
 };
 
 }  // namespace laterna::render

@@ -37,16 +37,8 @@ int band_count(const frame::Frame& frame, int tile_rows) {
 
 int tiles_across(int pixels) { return (pixels + raster::kTileSide - 1) / raster::kTileSide; }
 
-// Maps whose tiles wait to be asked for hold their sorted casters, all at the same time, in no more than this. Where
-// there are more of them, each map is drawn as a whole before the next.
-constexpr std::size_t kCasterMemory = std::size_t{1} << 30U;
-
-render::TileDrawing tile_drawing(const frame::Frame& frame, const light::LightPlan& plan) {
-  std::size_t maps = 0;
-  for (const light::PlannedLight& planned : plan.lights) maps += planned.shadow_views.size();
-  const std::size_t bytes = maps * frame.triangle_count() * sizeof(raster::SmallTriangle);
-  return bytes <= kCasterMemory ? render::TileDrawing::when_asked : render::TileDrawing::at_once;
-}
+// Sorted triangles kept from picture to picture, so that their memory is touched only once.
+constexpr std::size_t kIdleBinMemory = std::size_t{256} << 20U;
 
 // The door of every call that may need much memory.
 template <class Work>
@@ -112,7 +104,7 @@ struct Renderer::Implementation {
 
   std::unique_ptr<shadow::ShadowTechnique> make_technique(
       const light::PlannedLight& planned, std::size_t index, const raster::RasterView::Ray& ray,
-      const RenderSettings& settings, RenderStatistics& statistics, render::TileDrawing drawing,
+      const RenderSettings& settings, RenderStatistics& statistics, std::size_t& working_bytes,
       ProgressReport& progress) const {
     switch (planned.technique) {
       case ShadowTechnique::none:
@@ -124,8 +116,9 @@ struct Renderer::Implementation {
     }
     const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
                                      planned.settings.filter == ShadowFilter::refined, casters_revision};
-    const render::DepthMapCache::Found found = maps.find(
-        index, key, {frame, pool, bins, set, statistics.map_stages}, !settings.keep_shadow_maps, drawing);
+    const render::DepthMapCache::Found found =
+        maps.find(index, key, {frame, pool, bins, set, statistics.map_stages}, !settings.keep_shadow_maps,
+                  working_bytes, [&progress] { return progress.asks_to_stop(); });
     statistics.maps_drawn += found.made;
     statistics.maps_kept += static_cast<int>(found.maps.size()) - found.made;
     RenderStatistics::LightMemory memory = {planned.placed->light->name, static_cast<int>(found.maps.size()),
@@ -154,13 +147,13 @@ struct Renderer::Implementation {
     job.wanted = render::wanted_layers(settings);
     job.instruction_set = set;
     const raster::RasterView::Ray ray = view.homogeneous_ray();
-    const render::TileDrawing drawing = tile_drawing(frame, plan);
+    std::size_t working_bytes = 0;
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
-      if (progress.is_cancelled()) break;
+      if (progress.asks_to_stop()) break;
       job.lights.push_back({bound, shade::LightReach(*planned.placed, settings.shading),
-                            make_technique(planned, i, ray, settings, statistics, drawing, progress)});
+                            make_technique(planned, i, ray, settings, statistics, working_bytes, progress)});
       if (job.wanted.lux && settings.shading == ShadingModel::papers) {
         job.physical_lights.emplace_back(*planned.placed, ray, ShadingModel::phong, settings.anisotropy);
       }
@@ -187,6 +180,7 @@ struct Renderer::Implementation {
     explicit Drawing(const Implementation& of) : of_(of) { ++of_.pictures_drawn_now; }
     ~Drawing() {
       if (--of_.pictures_drawn_now == 0) of_.maps.rest();
+      of_.bins.trim(kIdleBinMemory);
     }
     Drawing(const Drawing&) = delete;
     Drawing& operator=(const Drawing&) = delete;
@@ -481,6 +475,7 @@ Result<LayeredImage> Renderer::depth_map(const std::string& light, int face,
     cost.shadow_ms = cost.total_ms = watch.lap_ms();
     cost.maps_drawn = 1;
     if (statistics != nullptr) *statistics = cost;
+    self.bins.trim(kIdleBinMemory);
     return metres_of(*map);
   });
 }

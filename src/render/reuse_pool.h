@@ -1,8 +1,12 @@
 // Objects that have done their work, kept for the next that need some: their memory is already touched.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <utility>
 #include <vector>
 
 #include "raster/triangle_bins.h"
@@ -27,6 +31,16 @@ class ReusePool {
     return lease;
   }
 
+  /// Frees the largest of what nobody uses until the rest takes no more than `bytes`.
+  void trim(std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    std::size_t held = 0;
+    for (const auto& object : idle_) held += object->memory_bytes();
+    std::sort(idle_.begin(), idle_.end(),
+              [](const auto& a, const auto& b) { return a->memory_bytes() < b->memory_bytes(); });
+    for (; !idle_.empty() && held > bytes; idle_.pop_back()) held -= idle_.back()->memory_bytes();
+  }
+
   /// Frees what nobody uses.
   void clear() {
     const std::lock_guard lock(mutex_);
@@ -34,9 +48,15 @@ class ReusePool {
   }
 
  private:
-  void give_back(T* object) {
-    const std::lock_guard lock(mutex_);
-    idle_.emplace_back(object);
+  // Called by destructors: an object for which there is no room in the list is let go.
+  void give_back(T* object) noexcept {
+    std::unique_ptr<T> owned(object);
+    try {
+      const std::lock_guard lock(mutex_);
+      idle_.push_back(std::move(owned));
+    } catch (const std::bad_alloc&) {
+      return;
+    }
   }
 
   std::mutex mutex_;

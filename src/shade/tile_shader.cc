@@ -235,9 +235,8 @@ class TileShader::Worker {
       if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
       if (!sums) scatter(*samples_, *radiance_, targets[0]);
     }
-    // Planes of the picture start dark; of fragments, every value is written.
-    const bool may_leave_out =
-        has_lights_to_leave_out_ && is_opaque && !wants_arrival(is_opaque) && !keeps_illumination();
+    // Where a light gives nothing, planes of the picture and of fragments are dark already.
+    const bool may_leave_out = has_lights_to_leave_out_ && !wants_arrival(is_opaque) && !keeps_illumination();
     const frame::Bounds bounds = may_leave_out ? bounds_of(*samples_) : frame::Bounds();
     for (std::size_t light = part.first_light; light < part.end_light; ++light) {
       if (surface.unlit && !wants_arrival(is_opaque)) continue;
@@ -307,7 +306,7 @@ class TileShader::Worker {
   // stays that light's.
   void blend_fragments() {
     const std::size_t count = fragments_.list().size();
-    fragment_values_.resize(count * (3 * planes_.size() + 1));
+    fragment_values_.assign(count * (3 * planes_.size() + 1), 0.0F);
     std::vector<ColorTarget> targets;
     for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
       float* first = fragment_values_.data() + count * 3 * plane;

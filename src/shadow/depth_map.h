@@ -26,8 +26,10 @@ class TilePainter {
   /// `depth` and `ids` take raster::kTilePixels each; `ids` is null where triangles are not kept.
   virtual void paint(const raster::RasterView& view, int tile_x, int tile_y, float* depth,
                      TriangleId* ids) = 0;
-  /// Frees what it can make again: no tiles will be asked for until the next picture.
+  /// Gives up what it can make again: no tiles will be asked for until the next picture.
   virtual void rest() = 0;
+  /// What it holds while it paints, as far as it knows.
+  [[nodiscard]] virtual std::size_t working_bytes() const = 0;
 };
 
 /// Texels are stored in tiles of 64 × 64 and blocks of 4 × 4, as they are rasterised: a 2 × 2 filter mostly stays in
@@ -71,6 +73,9 @@ class DepthMap {
   /// See TilePainter.
   void rest() {
     if (painter_ != nullptr) painter_->rest();
+  }
+  [[nodiscard]] std::size_t working_bytes() const {
+    return painter_ == nullptr || is_complete() ? 0 : painter_->working_bytes();
   }
 
   [[nodiscard]] const raster::RasterView& view() const { return view_; }

@@ -30,6 +30,7 @@ class NumberPainter final : public TilePainter {
     if (ids != nullptr) std::fill_n(ids, raster::kTilePixels, static_cast<TriangleId>(tile_x));
   }
   void rest() override {}
+  [[nodiscard]] std::size_t working_bytes() const override { return 0; }
 
  private:
   std::atomic<int>& calls_;
