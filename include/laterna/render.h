@@ -84,8 +84,9 @@ struct RenderTarget {
 struct RenderStatistics {
   // Phases, one after the other, by the clock:
   double plan_ms = 0;  ///< lights' matrices
-  double shadow_ms =
-      0;  ///< sorting what casts shadows; shadow maps are drawn while shading, where they are asked for
+  /// Sorting what casts shadows. Shadow maps are drawn while shading, where they are asked for; here, where there are so
+  /// many that their sorted casters would take over 1 GB.
+  double shadow_ms = 0;
   double bin_ms = 0;    ///< culling, transforming, clipping, sorting by tile
   double shade_ms = 0;  ///< rasterising and shading
   double total_ms = 0;

@@ -1,6 +1,6 @@
 // A vector whose storage starts on a cache line, for arrays that kernels load in whole vectors. Large ones ask the
-// system for large pages: kernels gather from textures and depth maps all over, and a page of 4 KB for each look-up
-// costs as much as the look-up.
+// system for large pages: kernels gather from textures and vertices all over, and a page of 4 KB for each look-up costs
+// as much as the look-up.
 #pragma once
 
 #include <cstddef>
