@@ -29,8 +29,8 @@ shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowV
                                 CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn) {
   shadow::DepthMap map(raster::RasterView(shadow_view.view, shadow_view.width, shadow_view.height),
                        keeps_triangles, std::move(outworn));
-  auto painter =
-      std::make_unique<DepthMapPainter>(context.frame, context.bins, context.instruction_set, faces);
+  auto painter = std::make_unique<DepthMapPainter>(context.frame, context.bins, context.bins_owner,
+                                                   context.instruction_set, faces);
   context.times += painter->prepare(map.view(), context.pool);
   map.set_painter(std::move(painter));
   return map;
@@ -84,7 +84,9 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
   DepthMaps maps;
   for (const light::ShadowView& view : key.views) {
     auto lease = outworn_.take();
-    *lease = make_depth_map(context, view, key.faces, key.keeps_triangles, std::move(*lease));
+    DrawContext own = context;
+    own.bins_owner = 1 + 6 * light + maps.size();  // the camera's is 0
+    *lease = make_depth_map(own, view, key.faces, key.keeps_triangles, std::move(*lease));
     settle(*lease);
     maps.push_back(std::move(lease));
   }

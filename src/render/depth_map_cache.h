@@ -32,6 +32,7 @@ struct DrawContext {
   BinsPool& bins;
   InstructionSet instruction_set;
   StageTimes& times;  // what is done here and now is added
+  std::size_t bins_owner = 0;
 };
 
 /// Sorted casters that the maps of one picture hold until it is done, in bytes. Maps beyond it are drawn whole, one after

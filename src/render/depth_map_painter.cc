@@ -26,7 +26,7 @@ DepthMapPainter::Bins DepthMapPainter::sort_casters(const raster::RasterView& vi
   options.blend_as_mask = true;
   options.pixels = {0, 0, view.width, view.height};
   options.instruction_set = set_;
-  BinsPool::Lease lease = bins_pool_.take();
+  BinsPool::Lease lease = bins_pool_.take(bins_owner_);
   if (pool != nullptr) {
     lease->fill(view, frame_.geometry(), options, *pool);
   } else {

@@ -19,8 +19,9 @@ namespace laterna::render {
 class DepthMapPainter final : public shadow::TilePainter {
  public:
   /// `frame` and `bins` stay while the painter lives.
-  DepthMapPainter(const frame::Frame& frame, BinsPool& bins, InstructionSet set, CasterFaces faces)
-      : frame_(frame), bins_pool_(bins), set_(set), faces_(faces) {}
+  DepthMapPainter(const frame::Frame& frame, BinsPool& bins, std::size_t bins_owner, InstructionSet set,
+                  CasterFaces faces)
+      : frame_(frame), bins_pool_(bins), bins_owner_(bins_owner), set_(set), faces_(faces) {}
 
   /// Sorts the casters by tile with all threads, and says what that took. Without it the first tile does so by itself.
   StageTimes prepare(const raster::RasterView& view, const TaskPool& pool);
@@ -35,6 +36,7 @@ class DepthMapPainter final : public shadow::TilePainter {
 
   const frame::Frame& frame_;
   BinsPool& bins_pool_;
+  std::size_t bins_owner_;
   InstructionSet set_;
   CasterFaces faces_;
   std::mutex mutex_;

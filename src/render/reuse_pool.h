@@ -18,16 +18,20 @@ class ReusePool {
  public:
   struct Return {
     ReusePool* pool;
-    void operator()(T* object) const { pool->give_back(object); }
+    std::size_t owner;
+    void operator()(T* object) const { pool->give_back(owner, object); }
   };
   using Lease = std::unique_ptr<T, Return>;
 
-  /// Comes back by itself when the lease ends. What is in it is left from its last use.
-  Lease take() {
+  /// Comes back by itself when the lease ends. What is in it is left from its last use, by the same owner if it is there:
+  /// handed round, every object would grow to the largest owner's needs.
+  Lease take(std::size_t owner = 0) {
     const std::lock_guard lock(mutex_);
-    if (idle_.empty()) return Lease(new T, Return{this});
-    Lease lease(idle_.back().release(), Return{this});
-    idle_.pop_back();
+    if (idle_.empty()) return Lease(new T, Return{this, owner});
+    auto found = std::find_if(idle_.begin(), idle_.end(), [&](const Idle& i) { return i.owner == owner; });
+    if (found == idle_.end()) found = idle_.end() - 1;
+    Lease lease(found->object.release(), Return{this, owner});
+    idle_.erase(found);
     return lease;
   }
 
@@ -35,10 +39,11 @@ class ReusePool {
   void trim(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     std::size_t held = 0;
-    for (const auto& object : idle_) held += object->memory_bytes();
-    std::sort(idle_.begin(), idle_.end(),
-              [](const auto& a, const auto& b) { return a->memory_bytes() < b->memory_bytes(); });
-    for (; !idle_.empty() && held > bytes; idle_.pop_back()) held -= idle_.back()->memory_bytes();
+    for (const Idle& idle : idle_) held += idle.object->memory_bytes();
+    std::sort(idle_.begin(), idle_.end(), [](const Idle& a, const Idle& b) {
+      return a.object->memory_bytes() < b.object->memory_bytes();
+    });
+    for (; !idle_.empty() && held > bytes; idle_.pop_back()) held -= idle_.back().object->memory_bytes();
   }
 
   /// Frees what nobody uses.
@@ -48,19 +53,24 @@ class ReusePool {
   }
 
  private:
+  struct Idle {
+    std::size_t owner;
+    std::unique_ptr<T> object;
+  };
+
   // Called by destructors: an object for which there is no room in the list is let go.
-  void give_back(T* object) noexcept {
+  void give_back(std::size_t owner, T* object) noexcept {
     std::unique_ptr<T> owned(object);
     try {
       const std::lock_guard lock(mutex_);
-      idle_.push_back(std::move(owned));
+      idle_.push_back({owner, std::move(owned)});
     } catch (const std::bad_alloc&) {
       return;
     }
   }
 
   std::mutex mutex_;
-  std::vector<std::unique_ptr<T>> idle_;
+  std::vector<Idle> idle_;
 };
 
 using BinsPool = ReusePool<raster::TriangleBins>;
