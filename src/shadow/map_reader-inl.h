@@ -247,7 +247,7 @@ template <class Visit>
 HWY_INLINE void ForEachMap(const ShadowMapTest& test, const Vector3& position, Visit visit) {
   const FloatTag d;
   if (test.maps.size() == 1) {
-    visit(test.maps[0], Splat(0.0F) == Splat(0.0F));
+    visit(test.maps[0], Splat(0.0F) < Splat(1.0F));
     return;
   }
   const Vector3 p = position - Splat3(test.maps[0].eye_ws);

@@ -271,7 +271,8 @@ HWY_INLINE FloatVector MeanArrival(const Blocking& blocking, int count) {
   const auto centre = hn::IfThenZeroElse(blocking.any[0], lit);
   if (count == 1) return centre;
   const auto share = Splat(1.0F / static_cast<float>(count));
-  const auto majority = Splat(static_cast<float>(count / 2 + 1)) * share;
+  const int more_than_half = count / 2 + 1;
+  const auto majority = Splat(static_cast<float>(more_than_half)) * share;
   const auto is_lit = centre >= Splat(0.5F);
   auto sum = centre;
   for (int i = 1; i < count; ++i) {

@@ -66,7 +66,7 @@ class TileFinder {
 
   [[nodiscard]] Span2 Around(float x_low, float x_high, float y_low, float y_high) const {
     const auto tile = [](float texel, int count) {
-      const float last = static_cast<float>(count - 1);
+      const auto last = static_cast<float>(count - 1);
       const float held = texel > 0 ? std::min(texel, last) : 0.0F;
       return static_cast<int>(held) >> raster::kTileBits;
     };

@@ -11,8 +11,9 @@ Scene panes() {
   Scene scene;
   reference::add_object(scene, "wall", reference::wall(4, 3, -2), {0.7F, 0.6F, 0.5F});
   for (int i = 0; i < 24; ++i) {
+    const int row = i / 6;
     const float x = static_cast<float>(i % 6) - 2.5F;
-    const float y = 0.9F * static_cast<float>(i / 6) - 1.4F;
+    const float y = 0.9F * static_cast<float>(row) - 1.4F;
     reference::Mesher mesher;
     const float half = 0.25F + 0.02F * static_cast<float>(i);
     const float z = -1.5F + 0.05F * static_cast<float>(i);
