@@ -35,6 +35,7 @@ HWY_INLINE std::uint32_t BitsOf(FloatMask mask) {
   hn::StoreMaskBits(FloatTag(), mask, bytes);
   return bytes[0] | std::uint32_t{bytes[1]} << 8U;
 }
+HWY_INLINE std::uint32_t BitsOf(IntMask mask) { return BitsOf(hn::RebindMask(FloatTag(), mask)); }
 HWY_INLINE FloatMask MaskFromBits(std::uint32_t bits) {
   const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits & 255U),
                                  static_cast<std::uint8_t>(bits >> 8U & 255U)};

@@ -12,6 +12,7 @@
 #include "image/image_rows.h"
 #include "image/layers.h"
 #include "image/parallel_rows.h"
+#include "image/png_format.h"
 #include "image/strip_compressor.h"
 
 namespace laterna::image {
@@ -37,12 +38,11 @@ void append_chunk(EncodedBytes& bytes, std::string_view type, std::span<const st
 }
 
 EncodedBytes header_chunk(const Image& image) {
-  constexpr std::array kColourTypes = {0, 4, 2, 6};  // grey, grey with alpha, RGB, RGBA
   EncodedBytes data;
   append_u32(data, static_cast<std::uint32_t>(image.width()));
   append_u32(data, static_cast<std::uint32_t>(image.height()));
   data.push_back(image.type() == PixelType::u16 ? std::byte{16} : std::byte{8});
-  data.push_back(static_cast<std::byte>(kColourTypes[static_cast<std::size_t>(image.channels() - 1)]));
+  data.push_back(static_cast<std::byte>(png_colour_type(image)));
   data.insert(data.end(), 3, std::byte{0});  // deflate, the usual filters, not interlaced
   return data;
 }

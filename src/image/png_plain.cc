@@ -14,6 +14,7 @@
 
 #include "base/aligned_vector.h"
 #include "image/image_rows.h"
+#include "image/png_format.h"
 
 namespace laterna::image {
 namespace {
@@ -54,11 +55,9 @@ class ChunkReader {
 };
 
 bool is_plain_header(std::span<const std::uint8_t> header, const Image& image) {
-  constexpr std::array kColourTypes = {0, 4, 2, 6};  // grey, grey with alpha, RGB, RGBA
   if (header.size() != 13 || image.type() != PixelType::u8) return false;
   const bool is_8_bit = header[8] == 8, is_interlaced = header[12] != 0;
-  return is_8_bit && !is_interlaced &&
-         header[9] == kColourTypes[static_cast<std::size_t>(image.channels() - 1)];
+  return is_8_bit && !is_interlaced && header[9] == png_colour_type(image);
 }
 
 // The data of all IDAT chunks, where there is nothing that libpng would make something of: palettes, transparent

@@ -145,8 +145,8 @@ struct ColourReader {
 
   static HWY_INLINE Vector3 Scaled(const Vector3& t) {
     if constexpr (kFormat == TexelFormat::colour) {
-      const auto scale = Splat(1.0F / (2047.0F * 2047.0F));
-      return {t.x * scale, t.y * scale, t.z * Splat(1.0F / (1023.0F * 1023.0F))};
+      const auto scale = Splat(1.0F / (kLargestRedGreen * kLargestRedGreen));
+      return {t.x * scale, t.y * scale, t.z * Splat(1.0F / (kLargestBlue * kLargestBlue))};
     } else {
       return t * Splat(1.0F / 255.0F);
     }

@@ -19,19 +19,15 @@
 
 #include <algorithm>
 
+#include "base/vectors-inl.h"
 #include "raster/tile_raster.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace laterna::raster::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::CappedTag<float, 16>;
-using IntTag = hn::RebindToSigned<FloatTag>;
+using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 using DoubleTag = hn::ScalableTag<double>;
-using FloatVector = hn::Vec<FloatTag>;
-using IntVector = hn::Vec<IntTag>;
-using FloatMask = hn::Mask<FloatTag>;
-constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
 constexpr std::size_t kVectors = kBlockPixels / kLanes;  // per block
 
 alignas(64) constexpr float kLaneX[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
@@ -43,17 +39,6 @@ alignas(64) constexpr double kLaneYDouble[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2
 // First pixels of a row of blocks.
 alignas(64) constexpr double kBlockColumn[kBlocksPerSide] = {0,  4,  8,  12, 16, 20, 24, 28,
                                                              32, 36, 40, 44, 48, 52, 56, 60};
-
-HWY_INLINE std::uint32_t MaskBits(hn::Mask<IntTag> mask) {
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(IntTag(), mask, bits);
-  return bits[0] | std::uint32_t{bits[1]} << 8U;
-}
-HWY_INLINE FloatMask MaskFromBits(std::uint32_t mask) {
-  const std::uint8_t bits[8] = {static_cast<std::uint8_t>(mask & 255U),
-                                static_cast<std::uint8_t>(mask >> 8U & 255U)};
-  return hn::LoadMaskBits(FloatTag(), bits);
-}
 
 // a X + b Y + c ≥ 0 inside, X and Y whole pixels from the view's origin.
 struct Edge {
@@ -168,9 +153,7 @@ class FragmentSink {
     if (hn::AllFalse(d, passing)) return false;
     alignas(64) float depths[kLanes];
     hn::Store(q, d, depths);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, passing, bits);
-    for (std::uint32_t mask = bits[0] | std::uint32_t{bits[1]} << 8U; mask != 0; mask &= mask - 1) {
+    for (std::uint32_t mask = BitsOf(passing); mask != 0; mask &= mask - 1) {
       const auto i = static_cast<std::size_t>(__builtin_ctz(mask));
       fragments_.push_back({static_cast<std::uint32_t>(sample + i), id_, depths[i]});
     }
@@ -189,12 +172,6 @@ class FragmentSink {
 };
 
 // ---------------------------------------------------------------------------------------------- traversal
-
-// The blocks of a tile that a triangle's bounding box touches, and the pixels it may cover there.
-struct PixelBox {
-  int x_first, x_last, y_first, y_last;
-  [[nodiscard]] bool IsEmpty() const { return x_first > x_last || y_first > y_last; }
-};
 
 // Depth of a wide triangle, in double until the last rounding.
 class WideDepth {
@@ -314,8 +291,8 @@ class WideEdges {
         outside = hn::Or(outside, row_[i][k] + hn::Set(di, reach_high_[i]));
         crossing = hn::Or(crossing, row_[i][k] + hn::Set(di, reach_low_[i]));
       }
-      row.touched |= MaskBits(hn::Not(outside < hn::Zero(di))) << (k * kLanes);
-      row.crossed |= MaskBits(crossing < hn::Zero(di)) << (k * kLanes);
+      row.touched |= BitsOf(hn::Not(outside < hn::Zero(di))) << (k * kLanes);
+      row.crossed |= BitsOf(crossing < hn::Zero(di)) << (k * kLanes);
     }
     return row;
   }
@@ -414,18 +391,12 @@ class TileRaster {
   // Whether the alpha cut must be asked about triangles of this kind.
   [[nodiscard]] bool IsCut(std::uint32_t kind) const { return (kind & kMasked) != 0 && task_.cut != nullptr; }
 
-  // First and last pixel of the bounding box whose sample may be covered, within the tile.
-  [[nodiscard]] PixelBox BoxOf(const WideTriangle& t) const {
-    const auto first = [](const std::int32_t* v, int offset, int tile) {
-      return std::max(((std::min({v[0], v[1], v[2]}) + kSubpixels / 2 - 1 - offset) >> kSubpixelBits) - tile,
-                      0);
-    };
-    const auto last = [](const std::int32_t* v, int offset, int tile) {
-      return std::min(((std::max({v[0], v[1], v[2]}) - kSubpixels / 2 - offset) >> kSubpixelBits) - tile,
-                      kTileSide - 1);
-    };
-    return {first(t.x, task_.offset_x, tile_x_), last(t.x, task_.offset_x, tile_x_),
-            first(t.y, task_.offset_y, tile_y_), last(t.y, task_.offset_y, tile_y_)};
+  // Pixels of the tile whose sample the bounding box may hold.
+  [[nodiscard]] Rect BoxOf(const WideTriangle& t) const {
+    const PixelSpan x = pixels_between(t.x, task_.offset_x, task_.offset_x),
+                    y = pixels_between(t.y, task_.offset_y, task_.offset_y);
+    return overlap({x.begin - tile_x_, y.begin - tile_y_, x.end - tile_x_, y.end - tile_y_},
+                   {0, 0, kTileSide, kTileSide});
   }
 
   // The edge functions over the first block of a small triangle, and their change from block to block, in pixels. All
@@ -497,15 +468,15 @@ class TileRaster {
   }
 
   void DrawWide(const WideTriangle& t) {
-    const PixelBox box = BoxOf(t);
-    if (box.IsEmpty()) return;
+    const Rect box = BoxOf(t);
+    if (box.is_empty()) return;
     Edge edges[3];
     SetUpEdges(t, task_, edges);
-    const int by_first = box.y_first & ~3;
+    const int by_first = box.y_begin & ~3;
     WideEdges wide_edges(edges, tile_x_, tile_y_, by_first);
     WideDepth depth(t, tile_x_ + 0.5 + offset_x_, tile_y_ + 0.5 + offset_y_);
-    const std::uint32_t columns = (2U << (box.x_last >> 2)) - (1U << (box.x_first >> 2));
-    for (int by = by_first; by <= box.y_last; by += kBlockSide) {
+    const std::uint32_t columns = (2U << ((box.x_end - 1) >> 2)) - (1U << (box.x_begin >> 2));
+    for (int by = by_first; by < box.y_end; by += kBlockSide) {
       const WideEdges::Row row = wide_edges.Enter();
       if ((row.touched & columns) != 0) {
         DrawRow(t, by, wide_edges, {row.touched & columns, row.crossed}, depth);
@@ -523,7 +494,7 @@ class TileRaster {
     std::uint32_t hidden = 0;
     for (std::size_t k = 0; k < kVectors; ++k) {
       const auto farthest = hn::Load(d, farthest_ + first + k * kLanes);
-      hidden |= MaskBits(hn::RebindMask(IntTag(), bounds.nearest[k] < farthest)) << (k * kLanes);
+      hidden |= BitsOf(bounds.nearest[k] < farthest) << (k * kLanes);
     }
     const std::uint32_t drawn = row.touched & ~hidden;
     for (std::uint32_t mask = drawn; mask != 0; mask &= mask - 1) {
@@ -582,7 +553,7 @@ class TileRaster {
       const auto q = depth(k);
       alignas(64) float depths[kLanes];
       hn::Store(q, d, depths);
-      std::uint32_t mask = MaskBits(hn::RebindMask(IntTag(), sink_.Passing(block + k * kLanes, covered, q)));
+      std::uint32_t mask = BitsOf(sink_.Passing(block + k * kLanes, covered, q));
       for (; mask != 0; mask &= mask - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(mask));
         const std::size_t i = k * kLanes + lane;

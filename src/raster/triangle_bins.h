@@ -2,6 +2,7 @@
 // of the tile stage (tile_raster).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -85,13 +86,30 @@ struct Rect {
   [[nodiscard]] bool is_empty() const { return x_begin >= x_end || y_begin >= y_end; }
   /// Grows to hold `other`; `nowhere()` is where to start from.
   void include(const Rect& other) {
-    x_begin = x_begin < other.x_begin ? x_begin : other.x_begin;
-    y_begin = y_begin < other.y_begin ? y_begin : other.y_begin;
-    x_end = x_end > other.x_end ? x_end : other.x_end;
-    y_end = y_end > other.y_end ? y_end : other.y_end;
+    x_begin = std::min(x_begin, other.x_begin);
+    y_begin = std::min(y_begin, other.y_begin);
+    x_end = std::max(x_end, other.x_end);
+    y_end = std::max(y_end, other.y_end);
   }
   static constexpr Rect nowhere() { return {1 << 30, 1 << 30, -(1 << 30), -(1 << 30)}; }
 };
+
+inline Rect overlap(const Rect& a, const Rect& b) {
+  return {std::max(a.x_begin, b.x_begin), std::max(a.y_begin, b.y_begin), std::min(a.x_end, b.x_end),
+          std::min(a.y_end, b.y_end)};
+}
+
+/// Pixels of one axis, from the view's origin: end exclusive.
+struct PixelSpan {
+  int begin, end;
+};
+/// Those with samples in the bounds of three snapped coordinates, where samples lie from `least` to `most` 1/256 pixel
+/// off their pixel's centre.
+inline PixelSpan pixels_between(const std::int32_t* v, int least, int most) {
+  const int low = std::min({v[0], v[1], v[2]}), high = std::max({v[0], v[1], v[2]});
+  return {(low + kSubpixels / 2 - 1 - most) >> kSubpixelBits,
+          ((high - kSubpixels / 2 - least) >> kSubpixelBits) + 1};
+}
 
 enum class CullFaces : std::uint8_t {
   none,          ///< shadow maps

@@ -1,8 +1,6 @@
 // Set-up of one cluster: transform, clip, snap, cull, depth planes. See triangle_setup.simd.cc.
 #pragma once
 
-#include <algorithm>
-
 #include "raster/triangle_bins.h"
 
 namespace laterna::raster {
@@ -34,13 +32,8 @@ struct SetupTask {
 /// Pixels from the view's origin that have samples in the bounds of three snapped corners. `reach`: of samples from the
 /// pixel's centre.
 inline Rect pixels_of(const std::int32_t* x, const std::int32_t* y, int reach) {
-  const auto first = [&](const std::int32_t* v) {
-    return (std::min({v[0], v[1], v[2]}) + kSubpixels / 2 - 1 - reach) >> kSubpixelBits;
-  };
-  const auto end = [&](const std::int32_t* v) {
-    return ((std::max({v[0], v[1], v[2]}) - kSubpixels / 2 + reach) >> kSubpixelBits) + 1;
-  };
-  return {first(x), first(y), end(x), end(y)};
+  const PixelSpan across = pixels_between(x, -reach, reach), down = pixels_between(y, -reach, reach);
+  return {across.begin, down.begin, across.end, down.end};
 }
 
 /// Appends the cluster's surviving triangles to the batch.

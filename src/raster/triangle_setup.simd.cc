@@ -16,6 +16,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/stopwatch.h"
+#include "base/vectors-inl.h"
 #include "raster/clip.h"
 #include "raster/triangle_setup.h"
 
@@ -23,11 +24,7 @@ HWY_BEFORE_NAMESPACE();
 namespace laterna::raster::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::CappedTag<float, 16>;
-using IntTag = hn::RebindToSigned<FloatTag>;
-using FloatVector = hn::Vec<FloatTag>;
-using IntVector = hn::Vec<IntTag>;
-constexpr std::size_t kLanes = hn::MaxLanes(FloatTag());
+using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 constexpr std::size_t kPadding = 16;
 
 // A cluster's vertices on the screen. Entries of vertices behind the near plane are not numbers to rely on.
@@ -132,17 +129,10 @@ struct SnappedVertex {
 };
 
 bool TouchesPixels(const Rect& pixels, const RasterView& view, int reach, const SnappedVertex* v) {
-  const auto low = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
-    return (std::min({a, b, c}) - kSubpixels / 2 - reach + kSubpixels - 1) >> kSubpixelBits;
-  };
-  const auto high = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
-    return (std::max({a, b, c}) - kSubpixels / 2 + reach) >> kSubpixelBits;
-  };
-  const int x0 = std::max(low(v[0].x, v[1].x, v[2].x), pixels.x_begin - view.origin_x);
-  const int x1 = std::min(high(v[0].x, v[1].x, v[2].x), pixels.x_end - 1 - view.origin_x);
-  const int y0 = std::max(low(v[0].y, v[1].y, v[2].y), pixels.y_begin - view.origin_y);
-  const int y1 = std::min(high(v[0].y, v[1].y, v[2].y), pixels.y_end - 1 - view.origin_y);
-  return x0 <= x1 && y0 <= y1;
+  const std::int32_t x[3] = {v[0].x, v[1].x, v[2].x}, y[3] = {v[0].y, v[1].y, v[2].y};
+  const Rect wanted = {pixels.x_begin - view.origin_x, pixels.y_begin - view.origin_y,
+                       pixels.x_end - view.origin_x, pixels.y_end - view.origin_y};
+  return !overlap(pixels_of(x, y, reach), wanted).is_empty();
 }
 
 // Twice the area, positive where the corners run clockwise on the screen.
@@ -265,12 +255,12 @@ static_assert(offsetof(SmallTriangle, edge_dx) == 12 && offsetof(SmallTriangle, 
               offsetof(SmallTriangle, kind) == 34 && offsetof(SmallTriangle, q) == 36 &&
               offsetof(SmallTriangle, id) == 56);
 
-HWY_INLINE void EmitSmall(const SmallRecords& records, std::uint64_t mask, Batch& batch) {
+HWY_INLINE void EmitSmall(const SmallRecords& records, std::uint32_t mask, Batch& batch) {
   const std::size_t before = batch.small.size();
-  batch.small.resize(before + static_cast<std::size_t>(__builtin_popcountll(mask)));
+  batch.small.resize(before + static_cast<std::size_t>(__builtin_popcount(mask)));
   auto* to = reinterpret_cast<unsigned char*>(batch.small.data() + before);
   for (; mask != 0; mask &= mask - 1) {
-    const auto i = static_cast<std::size_t>(__builtin_ctzll(mask));
+    const auto i = static_cast<std::size_t>(__builtin_ctz(mask));
     for (const auto& quarter : records.quarter) {
       std::memcpy(to, quarter[i], sizeof(quarter[i]));
       to += sizeof(quarter[i]);
@@ -339,7 +329,7 @@ class PixelBounds {
         y_first_(hn::Set(IntTag(), options.pixels.y_begin - view.origin_y)),
         y_last_(hn::Set(IntTag(), options.pixels.y_end - 1 - view.origin_y)) {}
 
-  HWY_INLINE hn::Mask<IntTag> Touches(const PixelBoxes& box) const {
+  HWY_INLINE IntMask Touches(const PixelBoxes& box) const {
     const auto x_begin = hn::Max(box.x_first, x_first_), x_end = hn::Min(box.x_last, x_last_);
     const auto y_begin = hn::Max(box.y_first, y_first_), y_end = hn::Min(box.y_last, y_last_);
     return hn::Not(hn::Or(x_begin > x_end, y_begin > y_end));
@@ -355,7 +345,7 @@ struct SmallEdges {
   IntVector at[3], dx[3], dy[3];
 };
 
-HWY_INLINE SmallEdges FindEdges(const Corners& c, const PixelBoxes& box, hn::Mask<IntTag> swap) {
+HWY_INLINE SmallEdges FindEdges(const Corners& c, const PixelBoxes& box, IntMask swap) {
   const IntTag di;
   const auto zero = hn::Zero(di);
   const IntVector x[3] = {c.snapped_x[0], hn::IfThenElse(swap, c.snapped_x[2], c.snapped_x[1]),
@@ -380,7 +370,7 @@ HWY_INLINE SmallEdges FindEdges(const Corners& c, const PixelBoxes& box, hn::Mas
 }
 
 // Triangles that lie between the samples: none of the four samples of a box of up to 2 × 2 pixels is covered.
-HWY_INLINE hn::Mask<IntTag> MissSamples(const SmallEdges& edges, const PixelBoxes& box) {
+HWY_INLINE IntMask MissSamples(const SmallEdges& edges, const PixelBoxes& box) {
   const IntTag di;
   const auto one = hn::Set(di, 1), zero = hn::Zero(di);
   const auto is_tiny = hn::Not(hn::Or(box.x_last - box.x_first > one, box.y_last - box.y_first > one));
@@ -453,7 +443,7 @@ class SmallBounds {
     x_first_ = y_first_ = hn::Set(di, 1 << 28);
     x_last_ = y_last_ = hn::Set(di, -(1 << 28));
   }
-  HWY_INLINE void Include(const PixelBoxes& box, hn::Mask<IntTag> small) {
+  HWY_INLINE void Include(const PixelBoxes& box, IntMask small) {
     x_first_ = hn::IfThenElse(small, hn::Min(x_first_, box.x_first), x_first_);
     y_first_ = hn::IfThenElse(small, hn::Min(y_first_, box.y_first), y_first_);
     x_last_ = hn::IfThenElse(small, hn::Max(x_last_, box.x_last), x_last_);
@@ -468,12 +458,6 @@ class SmallBounds {
  private:
   IntVector x_first_, y_first_, x_last_, y_last_;
 };
-
-HWY_INLINE std::uint64_t BitsOf(hn::Mask<IntTag> mask) {
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(IntTag(), mask, bits);
-  return bits[0] | std::uint64_t{bits[1]} << 8U;
-}
 
 void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& batch) {
   const FloatTag d;
@@ -510,8 +494,8 @@ void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& bat
     if (culling.front) kept = hn::And(kept, area > hn::Zero(di));
     if (culling.back) kept = hn::And(kept, area < hn::Zero(di));
 
-    for (std::uint64_t wide = BitsOf(hn::AndNot(is_small, touched)); wide != 0; wide &= wide - 1) {
-      SetUpWide(task, screen, first + static_cast<std::uint32_t>(__builtin_ctzll(wide)), batch);
+    for (std::uint32_t wide = BitsOf(hn::AndNot(is_small, touched)); wide != 0; wide &= wide - 1) {
+      SetUpWide(task, screen, first + static_cast<std::uint32_t>(__builtin_ctz(wide)), batch);
     }
     auto small = hn::And(hn::And(touched, is_small), kept);
     if (hn::AllFalse(di, small)) continue;

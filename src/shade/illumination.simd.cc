@@ -29,19 +29,6 @@ HWY_INLINE Vector3 Load3(const Samples& x, const Samples& y, const Samples& z, s
   return {hn::Load(d, x.data() + i), hn::Load(d, y.data() + i), hn::Load(d, z.data() + i)};
 }
 
-HWY_INLINE FloatMask LoadBits(std::uint16_t bits, std::size_t k) {
-  const auto shifted = static_cast<std::uint16_t>(bits >> k);
-  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(shifted & 255U),
-                                 static_cast<std::uint8_t>(shifted >> 8U)};
-  return hn::LoadMaskBits(FloatTag(), bytes);
-}
-
-HWY_INLINE std::uint16_t StoreBits(FloatMask mask, std::size_t k) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(FloatTag(), mask, bytes);
-  return static_cast<std::uint16_t>((bytes[0] | unsigned{bytes[1]} << 8U) << k);
-}
-
 // ---------------------------------------------------------------------------------------------- arriving light
 
 // What a light sends to N points: colour, direction, and where it shines at all.
@@ -144,7 +131,7 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
   SlidePoint point = FindSlidePoint(light, samples, i);
   Footprint& f = point.footprint;
   if (coordinates != nullptr) {
-    const auto valid = LoadBits(coordinates->valid[i / kGroupSize], i % kGroupSize);
+    const auto valid = MaskFromBits(std::uint32_t{coordinates->valid[i / kGroupSize]} >> i % kGroupSize);
     f.u = hn::IfThenElse(valid, hn::Load(d, coordinates->s.data() + i), f.u);
     f.v = hn::IfThenElse(valid, hn::Load(d, coordinates->t.data() + i), f.v);
   }
@@ -225,7 +212,7 @@ void find_irradiance(const BoundLight& light, const shadow::SurfaceSamples& samp
       hn::Store(arriving.to_light.y, d, irradiance.to_light_y_ws.data() + i);
       hn::Store(arriving.to_light.z, d, irradiance.to_light_z_ws.data() + i);
       hn::Store(cosine, d, irradiance.cosine.data() + i);
-      irradiance.lit[group] = static_cast<std::uint16_t>(irradiance.lit[group] | StoreBits(is_lit, k));
+      irradiance.lit[group] = static_cast<std::uint16_t>(irradiance.lit[group] | BitsOf(is_lit) << k);
     }
     irradiance.lit[group] = static_cast<std::uint16_t>(irradiance.lit[group] & samples.active[group]);
   }
@@ -339,7 +326,7 @@ void reflect(const ReflectionSettings& settings, std::size_t groups, const Surfa
   for (std::size_t group = 0; group < groups; ++group) {
     for (std::size_t k = 0; k < kGroupSize; k += kLanes) {
       const std::size_t i = group * kGroupSize + k;
-      const auto is_lit = LoadBits(irradiance.lit[group], k);
+      const auto is_lit = MaskFromBits(std::uint32_t{irradiance.lit[group]} >> k);
       if (hn::AllFalse(d, is_lit)) {
         if (!add) Store3(nothing, radiance, i);
         continue;

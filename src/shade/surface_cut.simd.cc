@@ -30,9 +30,7 @@ HWY_INLINE std::uint32_t FindKept(const CutSource& source, const frame::Surface&
       source.full_size
           ? frame::HWY_NAMESPACE::AlphaAtFullSize(frame, surface, corners, hit.weights)
           : frame::HWY_NAMESPACE::AlphaInView(frame, surface, corners, hit.weights, source.points.anisotropy);
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, alpha >= Splat(frame::cutoff_of(surface)), bytes);
-  return bytes[0] | std::uint32_t{bytes[1]} << 8U;
+  return BitsOf(alpha >= Splat(frame::cutoff_of(surface)));
 }
 
 void keep_above_cutoff(const CutSource& source, TriangleId id, const raster::CutSamples& samples,
