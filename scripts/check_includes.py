@@ -38,6 +38,7 @@ PUBLIC_HEADERS = {
     "sampler.h": "image",
     "scene.h": "scene",
     "shading.h": "shade",
+    "shadows.h": "scene",
     "stages.h": "base",
     "view.h": "base",
 }

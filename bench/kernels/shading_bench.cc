@@ -43,14 +43,14 @@ void reflected_light(benchmark::State& state, InstructionSet set, ShadingModel m
   const auto irradiance = std::make_unique<shade::Irradiance>();
   shade::find_irradiance_for(set)(bind(floor, FloorLight::point, model), *floor.samples, *floor.points,
                                   nullptr, *irradiance);
-  const auto alpha = std::make_unique<shadow::SampleArray<float>>();
-  alpha->fill(1);
+  const auto arrival = std::make_unique<shadow::Arrival>();
+  arrival->alpha.fill(1);
   const auto radiance = std::make_unique<shade::Radiance>();
   shade::ReflectionSettings settings;
   settings.model = model;
   const shade::Reflect kernel = shade::reflect_for(set);
   measure(state, "pixels", shadow::kMaxSamples, [&] {
-    kernel(settings, shadow::kMaxGroups, *floor.points, *irradiance, alpha->data(), false, *radiance);
+    kernel(settings, shadow::kMaxGroups, *floor.points, *irradiance, *arrival, 0, false, *radiance);
   });
 }
 

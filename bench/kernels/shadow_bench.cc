@@ -28,10 +28,11 @@ void look_up(benchmark::State& state, InstructionSet set, ShadowFilter filter, W
   planned.settings.filter = filter;
   const std::vector maps = {draw_map(frame, planned.shadow_views[0], set)};
   const shadow::ShadowMap technique(planned, maps, frame, floor.samples->ray, 1, set);
-  const auto alpha = std::make_unique<shadow::SampleArray<float>>();
+  const auto arrival = std::make_unique<shadow::Arrival>();
+  const shadow::SampleArray<float>& alpha = arrival->alpha;
   measure(state, "pixels", shadow::kMaxSamples,
-          [&] { technique.find_arrival(*floor.samples, floor.samples->active, alpha->data()); });
-  const auto lit = static_cast<std::size_t>(std::count(alpha->begin(), alpha->end(), 1.0F));
+          [&] { technique.find_arrival(*floor.samples, floor.samples->active, *arrival); });
+  const auto lit = static_cast<std::size_t>(std::count(alpha.begin(), alpha.end(), 1.0F));
   if ((lit == shadow::kMaxSamples) != (where == Where::lit)) state.SkipWithError("the shadow is elsewhere");
 }
 

@@ -41,13 +41,6 @@ struct LayerDescription {
 };
 std::span<const LayerDescription> list_layers();
 
-struct TechniqueDescription {
-  ShadowTechnique technique;
-  std::string_view name;
-  std::string_view meaning;
-};
-std::span<const TechniqueDescription> list_techniques();
-
 struct RenderSettings {
   int width = 1280, height = 720;  ///< 1…16384 each
   int samples = 1;                 ///< per pixel: 1, 2, 4, 8 or 16

@@ -19,6 +19,7 @@
 #include "laterna/image.h"
 #include "laterna/result.h"
 #include "laterna/sampler.h"
+#include "laterna/shadows.h"
 #include "laterna/view.h"
 
 namespace laterna {
@@ -112,29 +113,15 @@ enum class Attenuation : std::uint8_t {
   custom,          ///< Light::custom_attenuation
 };
 
-enum class ShadowTechnique : std::uint8_t { none, map, raytraced };
-/// How a shadow map is read.
-enum class ShadowFilter : std::uint8_t {
-  refined,   ///< near edges and contacts, the triangles that the texels saw are tested themselves: shadow
-             ///< edges are as sharp as the picture, antialiased, and surfaces never shade themselves
-  nearest,   ///< one texel: a staircase
-  bilinear,  ///< four texels, weighted
-  percentage_closer,  ///< kernel × kernel nearest texels, all of one weight
-};
-enum class CasterFaces : std::uint8_t { both, back_only };
-
-/// One light's shadows. The defaults need no tuning: bias follows from the receiver's plane and the texel's footprint.
-/// A manual bias, constant, by slope or both, takes its place, and `refined` is then read as `bilinear`.
-struct ShadowSettings {
-  std::optional<ShadowTechnique> technique;  ///< unset: the picture's
-  int resolution = 0;  ///< texels per side of a map (per cube face); 0: 2048, point lights 1024
-  ShadowFilter filter = ShadowFilter::refined;
-  int kernel = 3;                       ///< percentage_closer: kernel × kernel nearest taps, 2…9
-  std::optional<double> constant_bias;  ///< metres toward the light; overrides the automatic bias
-  std::optional<double> slope_bias;     ///< texel footprints per unit of depth slope; overrides likewise
-  CasterFaces caster_faces = CasterFaces::both;
-  bool outside_is_lit = true;  ///< beyond the map's sides or far plane
-  bool operator==(const ShadowSettings&) const = default;
+/// What a light shines from. Without size it is a point and shadows are hard; with it `pcss`, and pictures that average
+/// over the light (RenderSettings::light_samples), soften them.
+struct LightSource {
+  double radius = 0;             ///< metres, of a ball; point, spot, projector
+  double width = 0, height = 0;  ///< metres, of a rectangle in the light's own plane, in place of the ball
+  Angle angular_diameter;        ///< of a disc in the sky (the sun's: 0.53°); directional
+  [[nodiscard]] bool has_size() const {
+    return radius > 0 || width > 0 || height > 0 || angular_diameter.in_radians() > 0;
+  }
 };
 
 struct Light {
@@ -168,8 +155,12 @@ struct Light {
   /// Directional: the shadow map's frustum is fitted to the scene; otherwise `projection` (orthographic) holds it.
   bool fit = true;
 
+  LightSource source;
   ShadowSettings shadow;
 };
+
+/// Why a light of this kind cannot have its shadows found in this way, and what can; empty where it can.
+std::string find_fault(ShadowTechnique technique, const Light& light);
 
 // ---------------------------------------------------------------------------------------------- the scene
 

@@ -22,18 +22,9 @@ constexpr std::array<LayerDescription, 10> kLayers = {{
     {Layer::passes, "passes", "pass.*", "the frame buffer after each pass of --passes multi"},
 }};
 
-constexpr std::array<TechniqueDescription, 3> kTechniques = {{
-    {ShadowTechnique::none, "none", "light passes through everything"},
-    {ShadowTechnique::map, "map",
-     "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
-    {ShadowTechnique::raytraced, "raytraced",
-     "hard shadows by rays: slow, exact, the reference for the others"},
-}};
-
 }  // namespace
 
 std::span<const LayerDescription> list_layers() { return kLayers; }
-std::span<const TechniqueDescription> list_techniques() { return kTechniques; }
 
 namespace render {
 namespace {

@@ -16,8 +16,7 @@
 #include "render/progress_report.h"
 #include "render/scene_defaults.h"
 #include "render/settings_check.h"
-#include "shadow/ray_traced.h"
-#include "shadow/shadow_map.h"
+#include "render/shadow_casting.h"
 
 namespace laterna {
 
@@ -102,33 +101,6 @@ struct Renderer::Implementation {
     return rays;
   }
 
-  std::unique_ptr<shadow::ShadowTechnique> make_technique(
-      const light::PlannedLight& planned, std::size_t index, const raster::RasterView::Ray& ray,
-      const RenderSettings& settings, RenderStatistics& statistics, std::size_t& working_bytes,
-      ProgressReport& progress) const {
-    switch (planned.technique) {
-      case ShadowTechnique::none:
-        return nullptr;
-      case ShadowTechnique::raytraced:
-        return std::make_unique<shadow::RayTracedShadow>(planned, ray_scene());
-      case ShadowTechnique::map:
-        break;
-    }
-    const render::DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
-                                     planned.settings.filter == ShadowFilter::refined, casters_revision};
-    const render::DepthMapCache::Found found =
-        maps.find(index, key, {frame, pool, bins, set, statistics.map_stages}, !settings.keep_shadow_maps,
-                  working_bytes, [&progress] { return progress.asks_to_stop(); });
-    statistics.maps_drawn += found.made;
-    statistics.maps_kept += static_cast<int>(found.maps.size()) - found.made;
-    RenderStatistics::LightMemory memory = {planned.placed->light->name, static_cast<int>(found.maps.size()),
-                                            0};
-    for (const auto& map : found.maps) memory.bytes += map->memory_bytes();
-    statistics.shadow_memory.push_back(memory);
-    return std::make_unique<shadow::ShadowMap>(planned, found.maps, frame, ray, settings.samples, set,
-                                               [&progress] { return progress.asks_to_stop(); });
-  }
-
   // Everything the tiles share, with every shadow technique ready to answer.
   shade::ShaderJob make_job(const raster::RasterView& view, const RenderSettings& settings,
                             const light::LightPlan& plan, RenderStatistics& statistics,
@@ -147,13 +119,14 @@ struct Renderer::Implementation {
     job.wanted = render::wanted_layers(settings);
     job.instruction_set = set;
     const raster::RasterView::Ray ray = view.homogeneous_ray();
-    std::size_t working_bytes = 0;
+    render::ShadowCasting casting({frame, pool, set, casters_revision, bins, maps,
+                                   [this] { return ray_scene(); }, view, settings, statistics, progress});
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
       if (progress.asks_to_stop()) break;
       job.lights.push_back({bound, shade::LightReach(*planned.placed, settings.shading),
-                            make_technique(planned, i, ray, settings, statistics, working_bytes, progress)});
+                            casting.make(planned, i), shade::ShadowTone(planned.settings)});
       if (job.wanted.lux && settings.shading == ShadingModel::papers) {
         job.physical_lights.emplace_back(*planned.placed, ray, ShadingModel::phong, settings.anisotropy);
       }
@@ -297,6 +270,8 @@ Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const 
   Stopwatch watch;
   watch.start();
   if (Result<void> checked = render::check_settings(settings, from); !checked)
+    return tl::unexpected(checked.error());
+  if (Result<void> checked = render::check_technique(settings.shadows, frame); !checked)
     return tl::unexpected(checked.error());
   Result<render::PictureWriter> writer = render::PictureWriter::create(settings, target, frame, set);
   if (!writer) return tl::unexpected(std::move(writer.error()));

@@ -73,11 +73,17 @@ class JsonObject {
   template <class Choice>
   std::optional<Choice> choice(std::string_view name,
                                std::initializer_list<std::pair<std::string_view, Choice>> choices) {
+    return choice<Choice>(
+        name, std::span<const std::pair<std::string_view, Choice>>(choices.begin(), choices.size()));
+  }
+  template <class Choice>
+  std::optional<Choice> choice(std::string_view name,
+                               std::span<const std::pair<std::string_view, Choice>> choices) {
     std::vector<std::string_view> words;
     for (const auto& entry : choices) words.push_back(entry.first);
     const std::optional<std::size_t> which = read_choice(name, words);
     if (!which) return std::nullopt;
-    return (choices.begin() + *which)->second;
+    return choices[*which].second;
   }
 
   /// Reports a member that must be there and is not. Returns whether it is.

@@ -5,13 +5,12 @@
 #include "laterna/image.h"
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
+#include "scene/rig_shadows.h"
 #include "scene/spelling.h"
 #include "scene/uri.h"
 
 namespace laterna {
 namespace {
-
-constexpr std::uint64_t kMaxShadowResolution = 16384;
 
 std::string_view name_of(LightType type) {
   switch (type) {
@@ -72,7 +71,8 @@ class LightReader {
     }
     read_place();
     read_brightness();
-    read_shadow();
+    read_source();
+    read_rig_shadow(json_, object_, faults_, light_);
   }
 
   void read_place() {
@@ -112,45 +112,26 @@ class LightReader {
       object_.error("lumens", "give either candela or lumens, not both");
   }
 
-  void read_shadow() {
-    const JsonValue* value = object_.any("shadow");
-    if (value == nullptr) return;
-    if (value->kind == JsonValue::Kind::boolean) {
-      if (!value->boolean) light_.shadow.technique = ShadowTechnique::none;
-      return;
+  void read_source() {
+    LightSource& source = light_.source;
+    const bool is_sun = light_.type == LightType::directional;
+    if (is_sun) {
+      constexpr NumberRange kSkyAngle{0, 90, false, false};
+      if (const auto degrees = object_.number("angular_diameter_deg", kSkyAngle))
+        source.angular_diameter = Angle::degrees(*degrees);
     }
-    if (!value->is_object()) {
-      object_.error("shadow", fmt::format("expected true, false or an object, got {}", describe(*value)));
-      return;
+    for (const std::string_view name : {"radius", "size"}) {
+      if (is_sun && object_.any(name) != nullptr) {
+        object_.error(name, "a directional light is far away: give its \"angular_diameter_deg\"");
+      }
     }
-    JsonObject shadow(json_, *value, faults_);
-    ShadowSettings& settings = light_.shadow;
-    settings.technique =
-        shadow.choice<ShadowTechnique>("technique", {{"none", ShadowTechnique::none},
-                                                     {"map", ShadowTechnique::map},
-                                                     {"raytraced", ShadowTechnique::raytraced}});
-    settings.resolution = static_cast<int>(shadow.whole("resolution", 1, kMaxShadowResolution).value_or(0));
-    settings.filter =
-        shadow
-            .choice<ShadowFilter>("filter", {{"refined", ShadowFilter::refined},
-                                             {"nearest", ShadowFilter::nearest},
-                                             {"bilinear", ShadowFilter::bilinear},
-                                             {"percentage_closer", ShadowFilter::percentage_closer}})
-            .value_or(settings.filter);
-    if (const std::optional<std::uint64_t> kernel = shadow.whole("kernel", 2, 9)) {
-      settings.kernel = static_cast<int>(*kernel);
-      if (settings.filter != ShadowFilter::percentage_closer)
-        shadow.error("kernel", "has an effect only with \"filter\": \"percentage_closer\" beside it");
+    if (is_sun) return;
+    source.radius = object_.number("radius", kLength).value_or(0);
+    if (const auto size = object_.numbers<2>("size", kLength)) {
+      source.width = (*size)[0];
+      source.height = (*size)[1];
+      if (object_.has("radius")) object_.error("size", "give either radius or size, not both");
     }
-    settings.constant_bias = shadow.number("constant_bias", kCoordinate);
-    settings.slope_bias = shadow.number("slope_bias", kCoordinate);
-    settings.caster_faces = shadow
-                                .choice<CasterFaces>("caster_faces", {{"both", CasterFaces::both},
-                                                                      {"back_only", CasterFaces::back_only}})
-                                .value_or(CasterFaces::both);
-    settings.outside_is_lit =
-        shadow.choice<bool>("outside", {{"lit", true}, {"shadowed", false}}).value_or(true);
-    shadow.report_unknown_members("a shadow");
   }
 
   void read_attenuation() {

@@ -94,6 +94,7 @@ class Validator {
   void check_cameras();
   void check_lights();
   void check_light(const Light& light, const std::string& place);
+  void check_source(const Light& light, const std::string& place);
   void check_shadow(const ShadowSettings& shadow, const std::string& place);
   void check_whole_scene();
   void check_nodes();
@@ -312,12 +313,30 @@ void Validator::check_light(const Light& light, const std::string& place) {
   if (light.type == LightType::directional && !light.fit && !light.projection.is_orthographic) {
     fault(place + ".projection", "a directional light's projection must be orthographic");
   }
+  check_source(light, place + ".source");
   check_shadow(light.shadow, place + ".shadow");
+  if (light.shadow.technique) {
+    if (std::string message = find_fault(*light.shadow.technique, light); !message.empty())
+      fault(place + ".shadow.technique", std::move(message));
+  }
+}
+
+void Validator::check_source(const Light& light, const std::string& place) {
+  const LightSource& source = light.source;
+  check_number(place + ".radius", source.radius, 0, kMaxCoordinate);
+  check_number(place + ".width", source.width, 0, kMaxCoordinate);
+  check_number(place + ".height", source.height, 0, kMaxCoordinate);
+  check_number(place + ".angular_diameter", source.angular_diameter.in_degrees(), 0, 90);
+  const bool is_sun = light.type == LightType::directional;
+  const bool is_ball = source.radius > 0, is_rectangle = source.width > 0 || source.height > 0;
+  if (is_sun && (is_ball || is_rectangle))
+    fault(place, "a directional light is far away: its size is an angular_diameter");
+  if (!is_sun && source.angular_diameter.in_degrees() > 0)
+    fault(place + ".angular_diameter", "only a directional light's size is an angle");
+  if (is_ball && is_rectangle) fault(place, "it is either a ball or a rectangle, not both");
 }
 
 void Validator::check_shadow(const ShadowSettings& shadow, const std::string& place) {
-  check_enumerator(place + ".technique", shadow.technique.value_or(ShadowTechnique::none),
-                   ShadowTechnique::raytraced);
   check_enumerator(place + ".filter", shadow.filter, ShadowFilter::percentage_closer);
   check_enumerator(place + ".caster_faces", shadow.caster_faces, CasterFaces::back_only);
   if (shadow.resolution < 0 || shadow.resolution > kMaxShadowResolution) {
@@ -328,6 +347,10 @@ void Validator::check_shadow(const ShadowSettings& shadow, const std::string& pl
     fault(place + ".kernel",
           fmt::format("expected from {} to {}, got {}", kLeastKernel, kMostKernel, shadow.kernel));
   }
+  check_color(place + ".color", shadow.color, 1);
+  check_number(place + ".opacity", shadow.opacity, 0, 1);
+  check_number(place + ".ambient", shadow.ambient, 0, 1);
+  check_number(place + ".fill", shadow.fill, 0, 1);
   if (shadow.constant_bias)
     check_number(place + ".constant_bias", *shadow.constant_bias, -kMaxCoordinate, kMaxCoordinate);
   if (shadow.slope_bias)

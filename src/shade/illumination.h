@@ -9,6 +9,7 @@
 #include "laterna/shading.h"
 #include "shade/surface_points.h"
 #include "shadow/projected_view.h"
+#include "shadow/shadow_technique.h"
 #include "shadow/surface_samples.h"
 
 namespace laterna::shade {
@@ -76,10 +77,11 @@ using FindAmbient = void (*)(const ReflectionSettings& settings, const frame::Su
                              std::size_t groups, const SurfacePoints& points, Radiance& radiance);
 FindAmbient find_ambient_for(InstructionSet set);
 
-/// One light's part, by the arriving fraction `alpha`: added to `radiance`, or in its place. Samples that are not lit
-/// get 0.
+/// One light's part, by what arrives: added to `radiance`, or in its place. Samples that are not lit get 0. `fill`: of
+/// what does not arrive this much is reflected diffusely all the same (ShadowSettings::fill).
 using Reflect = void (*)(const ReflectionSettings& settings, std::size_t groups, const SurfacePoints& points,
-                         const Irradiance& irradiance, const float* alpha, bool add, Radiance& radiance);
+                         const Irradiance& irradiance, const shadow::Arrival& arrival, float fill, bool add,
+                         Radiance& radiance);
 Reflect reflect_for(InstructionSet set);
 
 }  // namespace laterna::shade

@@ -264,7 +264,12 @@ HWY_INLINE FloatVector Highlight(FloatVector x, float exponent) {
   return Power(x, Splat(exponent));
 }
 
+template <bool kHighlights>
 HWY_INLINE Vector3 ReflectPhong(const Incidence& in, const std::optional<PhongHighlight>& highlight) {
+  if constexpr (!kHighlights) {
+    const auto share = highlight ? Splat(1.0F) : Splat(1.0F) - in.metallic;
+    return Multiply(in.irradiance, in.base * (share * in.cosine));
+  }
   const Vector3 half = Normalised(in.to_eye + in.to_light);
   const auto n_h = hn::Max(Dot(in.normal, half), Splat(0.0F));
   if (highlight) {
@@ -288,6 +293,7 @@ HWY_INLINE Vector3 ReflectPhong(const Incidence& in, const std::optional<PhongHi
 
 // glTF 2.0, appendix B.3: GGX, the separable form of Smith's masking and shadowing, Schlick's Fresnel term, Lambert
 // beneath.
+template <bool kHighlights>
 HWY_INLINE Vector3 ReflectPbr(const Incidence& in) {
   const auto one = Splat(1.0F);
   const auto inverse_pi = Splat(0.318309886F);
@@ -313,15 +319,37 @@ HWY_INLINE Vector3 ReflectPbr(const Incidence& in) {
     const auto f0 = Splat(0.04F) + (base - Splat(0.04F)) * in.metallic;
     const auto f = f0 + (one - f0) * fresnel;
     const auto diffuse = (one - f) * (base * (one - in.metallic)) * inverse_pi;
+    if constexpr (!kHighlights) return diffuse * n_l;
     return (diffuse + f * specular) * n_l;
   };
   return Multiply(in.irradiance, {channel(in.base.x), channel(in.base.y), channel(in.base.z)});
 }
 
+template <bool kHighlights>
+HWY_INLINE Vector3 ReflectBy(const ReflectionSettings& settings, const Incidence& in) {
+  switch (settings.model) {
+    case ShadingModel::papers:
+      return ReflectPapers(in);
+    case ShadingModel::phong:
+      return ReflectPhong<kHighlights>(in, settings.phong);
+    case ShadingModel::pbr:
+      break;
+  }
+  return ReflectPbr<kHighlights>(in);
+}
+
+// Fraction of the light that arrives, by channel.
+HWY_INLINE Vector3 ArrivingAt(const shadow::Arrival& arrival, std::size_t i) {
+  if (arrival.is_tinted) return Load3(arrival.r, arrival.g, arrival.b, i);
+  const auto alpha = hn::Load(FloatTag(), arrival.alpha.data() + i);
+  return {alpha, alpha, alpha};
+}
+
 void reflect(const ReflectionSettings& settings, std::size_t groups, const SurfacePoints& points,
-             const Irradiance& irradiance, const float* alpha, bool add, Radiance& radiance) {
+             const Irradiance& irradiance, const shadow::Arrival& arrival, float fill, bool add,
+             Radiance& radiance) {
   const FloatTag d;
-  const auto zero = Splat(0.0F);
+  const auto zero = Splat(0.0F), one = Splat(1.0F);
   const Vector3 nothing = {zero, zero, zero};
   for (std::size_t group = 0; group < groups; ++group) {
     for (std::size_t k = 0; k < kGroupSize; k += kLanes) {
@@ -333,24 +361,20 @@ void reflect(const ReflectionSettings& settings, std::size_t groups, const Surfa
       }
       Incidence in;
       in.base = Load3(points.base_r, points.base_g, points.base_b, i);
-      in.irradiance = Load3(irradiance.r, irradiance.g, irradiance.b, i) * hn::Load(d, alpha + i);
+      const Vector3 unhindered = Load3(irradiance.r, irradiance.g, irradiance.b, i);
+      const Vector3 arriving = ArrivingAt(arrival, i);
+      in.irradiance = Multiply(unhindered, arriving);
       in.normal = Load3(points.normal_x_ws, points.normal_y_ws, points.normal_z_ws, i);
       in.to_light = Load3(irradiance.to_light_x_ws, irradiance.to_light_y_ws, irradiance.to_light_z_ws, i);
       in.to_eye = Load3(points.to_eye_x_ws, points.to_eye_y_ws, points.to_eye_z_ws, i);
       in.cosine = hn::Load(d, irradiance.cosine.data() + i);
       in.metallic = hn::Load(d, points.metallic.data() + i);
       in.roughness = hn::Load(d, points.roughness.data() + i);
-      Vector3 out;
-      switch (settings.model) {
-        case ShadingModel::papers:
-          out = ReflectPapers(in);
-          break;
-        case ShadingModel::phong:
-          out = ReflectPhong(in, settings.phong);
-          break;
-        case ShadingModel::pbr:
-          out = ReflectPbr(in);
-          break;
+      Vector3 out = ReflectBy<true>(settings, in);
+      if (fill > 0) {
+        const Vector3 missing = {one - arriving.x, one - arriving.y, one - arriving.z};
+        in.irradiance = Multiply(unhindered, missing * Splat(fill));
+        out = out + ReflectBy<false>(settings, in);
       }
       out = IfThenElse3(is_lit, out, nothing);
       Store3(add ? Load3(radiance.r, radiance.g, radiance.b, i) + out : out, radiance, i);

@@ -6,7 +6,9 @@
 
 namespace laterna::shade {
 
+using shadow::Arrival;
 using shadow::kGroupSize;
+using shadow::SampleArray;
 using shadow::SurfaceSamples;
 
 namespace {
@@ -28,6 +30,15 @@ void add_to(TilePlane& plane, const SurfaceSamples& s, Value value) {
     }
   }
 }
+
+// The fraction of each channel that arrives, tinted or not.
+struct ArrivingShares {
+  const SampleArray<float>&r, &g, &b;
+  explicit ArrivingShares(const Arrival& arrival)
+      : r(arrival.is_tinted ? arrival.r : arrival.alpha),
+        g(arrival.is_tinted ? arrival.g : arrival.alpha),
+        b(arrival.is_tinted ? arrival.b : arrival.alpha) {}
+};
 
 bool is_lit(const Irradiance& e, std::size_t i) {
   return (e.lit[i / kGroupSize] >> (i % kGroupSize) & 1U) != 0;
@@ -81,8 +92,8 @@ void TileLayers::store_geometry(const SurfaceSamples& s, const SurfacePoints& po
   }
 }
 
-void TileLayers::add_visibility(std::size_t light, const SurfaceSamples& s, const float* arrival) {
-  add_to(result_.visibility[light], s, [&](std::size_t i) { return arrival[i]; });
+void TileLayers::add_visibility(std::size_t light, const SurfaceSamples& s, const Arrival& arrival) {
+  add_to(result_.visibility[light], s, [&](std::size_t i) { return arrival.alpha[i]; });
 }
 
 void TileLayers::store_slide_coordinates(std::size_t light, const SurfaceSamples& s,
@@ -91,19 +102,26 @@ void TileLayers::store_slide_coordinates(std::size_t light, const SurfaceSamples
   scatter(s, irradiance.slide_t.data(), result_.slide_t[light].data());
 }
 
-void TileLayers::add_lux(const SurfaceSamples& s, const Irradiance& e, const float* arrival) {
+void TileLayers::add_lux(const SurfaceSamples& s, const Irradiance& e, const Arrival& arrival) {
+  const ArrivingShares share(arrival);
   add_to(result_.lux, s, [&](std::size_t i) {
     if (!is_lit(e, i)) return 0.0F;
-    return (0.2126F * e.r[i] + 0.7152F * e.g[i] + 0.0722F * e.b[i]) * e.cosine[i] * arrival[i];
+    if (!arrival.is_tinted)
+      return (0.2126F * e.r[i] + 0.7152F * e.g[i] + 0.0722F * e.b[i]) * e.cosine[i] * arrival.alpha[i];
+    return (0.2126F * e.r[i] * share.r[i] + 0.7152F * e.g[i] * share.g[i] + 0.0722F * e.b[i] * share.b[i]) *
+           e.cosine[i];
   });
 }
 
-void TileLayers::add_illumination(const SurfaceSamples& s, const Irradiance& e, const float* arrival,
+void TileLayers::add_illumination(const SurfaceSamples& s, const Irradiance& e, const Arrival& arrival,
                                   TileColor& sum) {
-  const auto arriving = [&](std::size_t i, float value) { return is_lit(e, i) ? value * arrival[i] : 0.0F; };
-  add_to(sum.r, s, [&](std::size_t i) { return arriving(i, e.r[i]); });
-  add_to(sum.g, s, [&](std::size_t i) { return arriving(i, e.g[i]); });
-  add_to(sum.b, s, [&](std::size_t i) { return arriving(i, e.b[i]); });
+  const ArrivingShares share(arrival);
+  const auto arriving = [&](std::size_t i, const SampleArray<float>& value, const SampleArray<float>& part) {
+    return is_lit(e, i) ? value[i] * part[i] : 0.0F;
+  };
+  add_to(sum.r, s, [&](std::size_t i) { return arriving(i, e.r, share.r); });
+  add_to(sum.g, s, [&](std::size_t i) { return arriving(i, e.g, share.g); });
+  add_to(sum.b, s, [&](std::size_t i) { return arriving(i, e.b, share.b); });
 }
 
 }  // namespace laterna::shade

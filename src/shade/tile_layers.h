@@ -58,14 +58,16 @@ class TileLayers {
   void start_tile();
   /// Depth, position, normal, object, albedo.
   void store_geometry(const shadow::SurfaceSamples& samples, const SurfacePoints& points);
-  void add_visibility(std::size_t light, const shadow::SurfaceSamples& samples, const float* arrival);
+  void add_visibility(std::size_t light, const shadow::SurfaceSamples& samples,
+                      const shadow::Arrival& arrival);
   void store_slide_coordinates(std::size_t light, const shadow::SurfaceSamples& samples,
                                const Irradiance& irradiance);
   /// Illuminance: Rec. 709 luminance of what falls on the surface.
-  void add_lux(const shadow::SurfaceSamples& samples, const Irradiance& irradiance, const float* arrival);
+  void add_lux(const shadow::SurfaceSamples& samples, const Irradiance& irradiance,
+               const shadow::Arrival& arrival);
   /// Pass 2 of the slide algorithm, c_p ← c_p + c_τ where light arrives: onto `sum`.
   static void add_illumination(const shadow::SurfaceSamples& samples, const Irradiance& irradiance,
-                               const float* arrival, TileColor& sum);
+                               const shadow::Arrival& arrival, TileColor& sum);
 
  private:
   const frame::Frame& frame_;

@@ -64,6 +64,8 @@ class TileShader::Worker {
         irradiance_(std::make_unique<Irradiance>()),
         coordinates_(std::make_unique<SlideCoordinates>()),
         radiance_(std::make_unique<Radiance>()),
+        arrival_(std::make_unique<shadow::Arrival>()),
+        seen_(std::make_unique<shadow::Arrival>()),
         layers_(*job.frame, *job.view, job.wanted, result_) {
     samples_->ray = job.view->homogeneous_ray();
     has_lights_to_leave_out_ =
@@ -246,9 +248,11 @@ class TileShader::Worker {
       end_stage(Stage::light);
       const double drawing_ms = find_arrival(shader_light, wants_arrival(is_opaque));
       end_stage(Stage::shadow, drawing_ms);
-      if (is_opaque) store_light_layers(light);
+      const shadow::Arrival& seen = apply_tone(shader_light.tone, groups);
+      if (is_opaque) store_light_layers(light, seen);
       if (surface.unlit) continue;
-      reflect_(job_.reflection, groups, *points_, *irradiance_, arrival_.data(), sums, *radiance_);
+      reflect_(job_.reflection, groups, *points_, *irradiance_, seen, shader_light.tone.fill(), sums,
+               *radiance_);
       if (!sums) scatter(*samples_, *radiance_, targets[light + 1]);
     }
     if (sums) scatter(*samples_, *radiance_, targets[0]);
@@ -268,15 +272,16 @@ class TileShader::Worker {
     find_irradiance_(light, *samples_, *points_, coordinates, *irradiance_);
   }
 
-  // α of the lit samples, or of all where a layer shows it. Returns what ShadowTechnique::find_arrival does.
+  // Of the lit samples, or of all where a layer shows it. Returns what ShadowTechnique::find_arrival does.
   double find_arrival(const ShaderLight& light, bool of_all) {
     const std::size_t groups = samples_->group_count;
     const std::span wanted(of_all ? samples_->active : irradiance_->lit);
     if (light.shadow == nullptr) {
-      arrival_.fill(1);
+      arrival_->alpha.fill(1);
+      arrival_->is_tinted = false;
       return 0;
     }
-    const double drawing_ms = light.shadow->find_arrival(*samples_, wanted.first(groups), arrival_.data());
+    const double drawing_ms = light.shadow->find_arrival(*samples_, wanted.first(groups), *arrival_);
     map_ms_ += drawing_ms;
     if (!job_.frame->all_receive_shadows) release_non_receivers();
     return drawing_ms;
@@ -295,9 +300,19 @@ class TileShader::Worker {
       }
       if (all_flags != 0) continue;
       for (std::size_t i = first; i < first + kGroupSize; ++i) {
-        if ((job_.frame->clusters[cluster_of(s.id[i])].flags & kReceivesShadow) == 0) arrival_[i] = 1;
+        if ((job_.frame->clusters[cluster_of(s.id[i])].flags & kReceivesShadow) != 0) continue;
+        for (shadow::SampleArray<float>* share :
+             {&arrival_->alpha, &arrival_->r, &arrival_->g, &arrival_->b}) {
+          (*share)[i] = 1;
+        }
       }
     }
+  }
+
+  const shadow::Arrival& apply_tone(const ShadowTone& tone, std::size_t groups) {
+    if (tone.is_physical()) return *arrival_;
+    tone.apply(*arrival_, groups, *seen_);
+    return *seen_;
   }
 
   // -------------------------------------------------------------------------------------------- blending
@@ -341,19 +356,20 @@ class TileShader::Worker {
       coverage_[i] = ids_[i] == kNoTriangle && !job_.background ? 0.0F : 1.0F;
   }
 
-  void store_light_layers(std::size_t light) {
+  // Layers that measure show what arrives; the papers' frame buffer is a picture, and shows what is `seen` to.
+  void store_light_layers(std::size_t light, const shadow::Arrival& seen) {
     const SurfaceSamples& s = *samples_;
     const WantedLayers& wanted = job_.wanted;
-    if (wanted.visibility) layers_.add_visibility(light, s, arrival_.data());
+    if (wanted.visibility) layers_.add_visibility(light, s, *arrival_);
     if (wanted.slide_uv && sample_ == 0 && job_.lights[light].bound.light->type == LightType::projector) {
       layers_.store_slide_coordinates(light, s, *irradiance_);
     }
     if (keeps_illumination()) {
-      TileLayers::add_illumination(s, *irradiance_, arrival_.data(), result_.pass_illumination[light]);
+      TileLayers::add_illumination(s, *irradiance_, seen, result_.pass_illumination[light]);
     }
     if (!wanted.lux) return;
     if (!job_.physical_lights.empty()) find_irradiance(job_.physical_lights[light]);
-    layers_.add_lux(s, *irradiance_, arrival_.data());
+    layers_.add_lux(s, *irradiance_, *arrival_);
     if (!job_.physical_lights.empty()) find_irradiance(job_.lights[light].bound);
   }
 
@@ -415,7 +431,7 @@ class TileShader::Worker {
   std::unique_ptr<Irradiance> irradiance_;
   std::unique_ptr<SlideCoordinates> coordinates_;
   std::unique_ptr<Radiance> radiance_;
-  shadow::SampleArray<float> arrival_;
+  std::unique_ptr<shadow::Arrival> arrival_, seen_;
   TileResult result_;
   TileLayers layers_;
 

@@ -10,6 +10,7 @@
 #include "raster/tile_raster.h"
 #include "shade/illumination.h"
 #include "shade/light_reach.h"
+#include "shade/shadow_tone.h"
 #include "shade/surface_cut.h"
 #include "shade/tile_layers.h"
 #include "shadow/shadow_technique.h"
@@ -22,6 +23,7 @@ struct ShaderLight {
   LightReach reach;
   /// Null: nothing stands in its way.
   std::unique_ptr<shadow::ShadowTechnique> shadow;
+  ShadowTone tone;
 };
 
 /// Everything that is the same for all tiles of a picture.

@@ -57,7 +57,8 @@ RayTracedShadow::Ray RayTracedShadow::ray_to_light(const glm::dvec3& position_ws
 }
 
 double RayTracedShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
-                                     float* alpha) const {
+                                     Arrival& arrival) const {
+  arrival.is_tinted = false;
   for (std::size_t group = 0; group < samples.group_count; ++group) {
     for (unsigned mask = wanted[group]; mask != 0; mask &= mask - 1) {
       const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
@@ -66,7 +67,7 @@ double RayTracedShadow::find_arrival(const SurfaceSamples& samples, std::span<co
       const float near = nearest_blocker(samples, i);
       const bool is_blocked = ray.length > near &&
                               scene_->is_blocked(position, ray.direction_ws, near, ray.length, samples.id[i]);
-      alpha[i] = is_blocked ? 0.0F : 1.0F;
+      arrival.alpha[i] = is_blocked ? 0.0F : 1.0F;
     }
   }
   return 0;

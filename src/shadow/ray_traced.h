@@ -14,7 +14,7 @@ class RayTracedShadow final : public ShadowTechnique {
   RayTracedShadow(const light::PlannedLight& planned, std::shared_ptr<const trace::RayScene> scene)
       : planned_(planned), scene_(std::move(scene)) {}
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
-                      float* alpha) const override;
+                      Arrival& arrival) const override;
 
  private:
   struct Ray;

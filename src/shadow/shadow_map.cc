@@ -69,20 +69,21 @@ ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::sh
 }
 
 double ShadowMap::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
-                               float* alpha) const {
+                               Arrival& arrival) const {
+  arrival.is_tinted = false;
   std::vector<MapTile> missing;
   find_missing_tiles_for(test_.instruction_set)(test_, samples, wanted, missing);
   Stopwatch watch;
   if (!missing.empty()) watch.start();
   for (const MapTile& tile : missing) {
     if (asks_to_stop_ && asks_to_stop_()) {
-      std::fill_n(alpha, samples.group_count * kGroupSize, 0.0F);
+      std::fill_n(arrival.alpha.data(), samples.group_count * kGroupSize, 0.0F);
       return watch.lap_ms();
     }
     maps_[tile.map]->require(tile.x, tile.y);
   }
   const double drawing_ms = missing.empty() ? 0 : watch.lap_ms();
-  look_up_shadow_map_for(test_.instruction_set)(test_, samples, wanted, alpha);
+  look_up_shadow_map_for(test_.instruction_set)(test_, samples, wanted, arrival.alpha.data());
   return drawing_ms;
 }
 

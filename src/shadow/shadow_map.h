@@ -60,7 +60,7 @@ class ShadowMap final : public ShadowTechnique {
             InstructionSet set, std::function<bool()> asks_to_stop = nullptr);
   /// Draws the maps' tiles that are needed first. Everything is dark once the caller has asked to stop.
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
-                      float* alpha) const override;
+                      Arrival& arrival) const override;
 
  private:
   std::vector<std::shared_ptr<DepthMap>> maps_;

@@ -9,16 +9,24 @@
 
 namespace laterna::shadow {
 
+/// How much of a light arrives at each sample.
+struct Arrival {
+  /// Fraction that arrives, 0 in full shadow and 1 in full light; with a tint the mean of the three below.
+  SampleArray<float> alpha;
+  bool is_tinted = false;      ///< what light came through has coloured it
+  SampleArray<float> r, g, b;  ///< then: fraction that arrives, by channel
+};
+
 /// Answers for one light and one set of samples' rays. Const calls may come from several threads at once.
 class ShadowTechnique {
  public:
   virtual ~ShadowTechnique() = default;
 
-  /// Writes α to alpha[i], 0 in full shadow and 1 in full light, for the samples named by `wanted` (a bit each, by
-  /// group); entries of other samples in the same group may be written too. Returns how many milliseconds of this went
-  /// into drawing what the answer is read from, rather than into reading it.
+  /// Writes what arrives at the samples named by `wanted` (a bit each, by group); entries of other samples in the same
+  /// group may be written too. Returns how many milliseconds of this went into drawing what the answer is read from,
+  /// rather than into reading it.
   virtual double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
-                              float* alpha) const = 0;
+                              Arrival& arrival) const = 0;
 };
 
 }  // namespace laterna::shadow

@@ -378,13 +378,14 @@ TEST_P(Illumination, EveryModelReflectsByItsFormula) {
       const Points points(21);
       const TestLight t = light_of(LightType::point, Attenuation::inverse_square);
       const auto irradiance = arriving(t, points, c.settings.model, GetParam());
-      SampleArray<float> alpha;
+      const auto arrival = std::make_unique<shadow::Arrival>();
+      SampleArray<float>& alpha = arrival->alpha;
       for (std::size_t i = 0; i < kMaxSamples; ++i) alpha[i] = static_cast<float>(i % 5) / 4;
       Radiance got, scalar;
       for (SampleArray<float>* channel : {&got.r, &got.g, &got.b, &scalar.r, &scalar.g, &scalar.b})
         channel->fill(7);
-      reflect_for(GetParam())(c.settings, kMaxGroups, *points.points, *irradiance, alpha.data(), add, got);
-      reflect_for(InstructionSet::scalar)(c.settings, kMaxGroups, *points.points, *irradiance, alpha.data(),
+      reflect_for(GetParam())(c.settings, kMaxGroups, *points.points, *irradiance, *arrival, 0, add, got);
+      reflect_for(InstructionSet::scalar)(c.settings, kMaxGroups, *points.points, *irradiance, *arrival, 0,
                                           add, scalar);
       EXPECT_TRUE(same_bits(got.r, scalar.r) && same_bits(got.g, scalar.g) && same_bits(got.b, scalar.b))
           << c.name;
@@ -413,6 +414,47 @@ TEST_P(Illumination, EveryModelReflectsByItsFormula) {
   }
 }
 
+// Every channel has a share of its own, and of what is missing `fill` is reflected without the highlight: for a matt
+// surface that is as if so much more had arrived.
+TEST_P(Illumination, TintAndFill) {
+  const Points points(22);
+  const TestLight t = light_of(LightType::point, Attenuation::inverse_square);
+  const auto arrival = std::make_unique<shadow::Arrival>();
+  arrival->is_tinted = true;
+  for (std::size_t i = 0; i < kMaxSamples; ++i) {
+    arrival->r[i] = static_cast<float>(i % 5) / 4;
+    arrival->g[i] = static_cast<float>(i % 3) / 2;
+    arrival->b[i] = 1;
+  }
+  const auto full = std::make_unique<shadow::Arrival>();
+  full->alpha.fill(1);
+  for (const ReflectionCase& c : reflection_cases()) {
+    const auto irradiance = arriving(t, points, c.settings.model, GetParam());
+    const auto reflected = [&](const shadow::Arrival& share, float fill) {
+      auto out = std::make_unique<Radiance>();
+      reflect_for(GetParam())(c.settings, kMaxGroups, *points.points, *irradiance, share, fill, false, *out);
+      return out;
+    };
+    const auto lit = reflected(*full, 0), tinted = reflected(*arrival, 0),
+               filled = reflected(*arrival, 0.25F);
+    for (std::size_t i = 0; i < kMaxSamples; ++i) {
+      ASSERT_NEAR(tinted->r[i], lit->r[i] * arrival->r[i], 2e-6F * lit->r[i]) << c.name;
+      ASSERT_NEAR(tinted->g[i], lit->g[i] * arrival->g[i], 2e-6F * lit->g[i]) << c.name;
+      ASSERT_EQ(tinted->b[i], lit->b[i]) << c.name;
+      ASSERT_EQ(filled->b[i], lit->b[i]) << c.name;
+      const float most = tinted->r[i] + 0.25F * (lit->r[i] - tinted->r[i]);
+      ASSERT_LE(filled->r[i], most * 1.00001F) << c.name;
+      if (c.settings.model == ShadingModel::papers) {
+        ASSERT_NEAR(filled->r[i], most, 2e-6F * lit->r[i]);
+      }
+      if (lit->r[i] > 0 && arrival->r[i] == 0 && points.points->base_r[i] > 0 &&
+          points.points->metallic[i] < 1) {
+        ASSERT_GT(filled->r[i], 0) << c.name;
+      }
+    }
+  }
+}
+
 // Below α = 0.001 the lobe is held: a mirror would show a point light as nothing or as infinitely bright.
 TEST_P(Illumination, MirrorsAndGrazingAnglesStayFinite) {
   Points points(33);
@@ -435,11 +477,11 @@ TEST_P(Illumination, MirrorsAndGrazingAnglesStayFinite) {
     irradiance->cosine[i] = static_cast<float>(glm::dot(n, to_light));
   }
   irradiance->lit.fill(0xFFFF);
-  SampleArray<float> alpha;
-  alpha.fill(1);
+  const auto arrival = std::make_unique<shadow::Arrival>();
+  arrival->alpha.fill(1);
   for (const ReflectionCase& c : reflection_cases()) {
     Radiance got;
-    reflect_for(GetParam())(c.settings, kMaxGroups, p, *irradiance, alpha.data(), false, got);
+    reflect_for(GetParam())(c.settings, kMaxGroups, p, *irradiance, *arrival, 0, false, got);
     for (std::size_t i = 0; i < kMaxSamples; ++i) {
       for (const float value : {got.r[i], got.g[i], got.b[i]}) {
         ASSERT_TRUE(std::isfinite(value)) << c.name << " " << i;

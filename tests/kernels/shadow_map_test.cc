@@ -63,9 +63,9 @@ using Maps = std::vector<std::shared_ptr<DepthMap>>;
 std::vector<float> look_up(const light::PlannedLight& planned, const Maps& maps, const frame::Frame& frame,
                            const SurfaceSamples& samples, int samples_per_pixel, InstructionSet set) {
   const ShadowMap shadow(planned, maps, frame, samples.ray, samples_per_pixel, set);
-  alignas(64) std::array<float, kMaxSamples> alpha{};
-  shadow.find_arrival(samples, std::span(samples.active).first(samples.group_count), alpha.data());
-  return {alpha.begin(), alpha.end()};
+  const auto arrival = std::make_unique<Arrival>();
+  shadow.find_arrival(samples, std::span(samples.active).first(samples.group_count), *arrival);
+  return {arrival->alpha.begin(), arrival->alpha.end()};
 }
 
 // ---------------------------------------------------------------------------------------------- plain filters

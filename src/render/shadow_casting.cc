@@ -1,0 +1,45 @@
+#include "render/shadow_casting.h"
+
+#include "shadow/ray_traced.h"
+#include "shadow/shadow_map.h"
+
+namespace laterna::render {
+
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make(const light::PlannedLight& planned,
+                                                             std::size_t index) {
+  switch (planned.technique) {
+    case ShadowTechnique::map:
+      return make_map(planned, index);
+    case ShadowTechnique::raytraced:
+      return std::make_unique<shadow::RayTracedShadow>(planned, context_.ray_scene());
+    default:
+      return nullptr;
+  }
+}
+
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::PlannedLight& planned,
+                                                                 std::size_t index) {
+  ProgressReport& progress = context_.progress;
+  const auto asks_to_stop = [&progress] { return progress.asks_to_stop(); };
+  const DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
+                           planned.settings.filter == ShadowFilter::refined, context_.casters_revision};
+  const DepthMapCache::Found found =
+      context_.maps.find(index, key,
+                         {context_.frame, context_.pool, context_.bins, context_.instruction_set,
+                          context_.statistics.map_stages},
+                         !context_.settings.keep_shadow_maps, working_bytes_, asks_to_stop);
+  context_.statistics.maps_drawn += found.made;
+  context_.statistics.maps_kept += static_cast<int>(found.maps.size()) - found.made;
+  std::size_t bytes = 0;
+  for (const auto& map : found.maps) bytes += map->memory_bytes();
+  report_memory(planned, static_cast<int>(found.maps.size()), bytes);
+  return std::make_unique<shadow::ShadowMap>(planned, found.maps, context_.frame,
+                                             context_.camera.homogeneous_ray(), context_.settings.samples,
+                                             context_.instruction_set, asks_to_stop);
+}
+
+void ShadowCasting::report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes) {
+  context_.statistics.shadow_memory.push_back({planned.placed->light->name, maps, bytes});
+}
+
+}  // namespace laterna::render

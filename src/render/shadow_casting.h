@@ -1,0 +1,48 @@
+// From a planned light to what answers for its shadows.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "laterna/render.h"
+#include "light/light_plan.h"
+#include "render/depth_map_cache.h"
+#include "render/progress_report.h"
+#include "shadow/shadow_technique.h"
+#include "trace/ray_scene.h"
+
+namespace laterna::render {
+
+/// What shadow techniques of one picture are made of. `ray_scene` is asked for where a technique needs it.
+struct CastingContext {
+  const frame::Frame& frame;
+  const TaskPool& pool;
+  InstructionSet instruction_set;
+  std::uint64_t casters_revision;
+  BinsPool& bins;
+  DepthMapCache& maps;
+  std::function<std::shared_ptr<const trace::RayScene>()> ray_scene;
+  const raster::RasterView& camera;
+  const RenderSettings& settings;
+  RenderStatistics& statistics;
+  ProgressReport& progress;
+};
+
+class ShadowCasting {
+ public:
+  explicit ShadowCasting(CastingContext context) : context_(std::move(context)) {}
+
+  /// Null where nothing stands in the light's way. The plan must outlive the result; `index` is the light's in it.
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make(const light::PlannedLight& planned,
+                                                              std::size_t index);
+
+ private:
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_map(const light::PlannedLight& planned,
+                                                                  std::size_t index);
+  void report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes);
+
+  CastingContext context_;
+  std::size_t working_bytes_ = 0;  // of the picture's maps so far
+};
+
+}  // namespace laterna::render

@@ -1,0 +1,82 @@
+#include "scene/rig_shadows.h"
+
+#include <fmt/format.h>
+
+#include "scene/rig_ranges.h"
+
+namespace laterna {
+namespace {
+
+constexpr std::uint64_t kMaxShadowResolution = 16384;
+
+void read_technique(JsonObject& shadow, Light& light) {
+  std::vector<std::pair<std::string_view, ShadowTechnique>> choices;
+  for (const TechniqueDescription& t : list_techniques()) choices.emplace_back(t.name, t.technique);
+  light.shadow.technique = shadow.choice<ShadowTechnique>("technique", choices);
+  if (!light.shadow.technique) return;
+  if (std::string fault = find_fault(*light.shadow.technique, light); !fault.empty()) {
+    shadow.error("technique", std::move(fault));
+  }
+}
+
+void read_filter(JsonObject& shadow, ShadowSettings& settings) {
+  settings.filter =
+      shadow
+          .choice<ShadowFilter>("filter", {{"refined", ShadowFilter::refined},
+                                           {"nearest", ShadowFilter::nearest},
+                                           {"bilinear", ShadowFilter::bilinear},
+                                           {"percentage_closer", ShadowFilter::percentage_closer}})
+          .value_or(settings.filter);
+  if (const std::optional<std::uint64_t> kernel = shadow.whole("kernel", 2, 9)) {
+    settings.kernel = static_cast<int>(*kernel);
+    if (settings.filter != ShadowFilter::percentage_closer)
+      shadow.error("kernel", "has an effect only with \"filter\": \"percentage_closer\" beside it");
+  }
+}
+
+void read_map(JsonObject& shadow, ShadowSettings& settings) {
+  settings.resolution = static_cast<int>(shadow.whole("resolution", 1, kMaxShadowResolution).value_or(0));
+  read_filter(shadow, settings);
+  settings.constant_bias = shadow.number("constant_bias", kCoordinate);
+  settings.slope_bias = shadow.number("slope_bias", kCoordinate);
+  settings.caster_faces = shadow
+                              .choice<CasterFaces>("caster_faces", {{"both", CasterFaces::both},
+                                                                    {"back_only", CasterFaces::back_only}})
+                              .value_or(CasterFaces::both);
+  settings.outside_is_lit =
+      shadow.choice<bool>("outside", {{"lit", true}, {"shadowed", false}}).value_or(true);
+}
+
+void read_darkness(JsonObject& shadow, ShadowSettings& settings) {
+  if (const auto color = shadow.numbers<3>("color", kZeroToOne)) {
+    settings.color = glm::vec3((*color)[0], (*color)[1], (*color)[2]);
+  }
+  const auto read = [&](std::string_view name, float& value) {
+    if (const auto given = shadow.number(name, kZeroToOne)) value = static_cast<float>(*given);
+  };
+  read("opacity", settings.opacity);
+  read("ambient", settings.ambient);
+  read("fill", settings.fill);
+}
+
+}  // namespace
+
+void read_rig_shadow(const JsonDocument& json, JsonObject& object, FaultList& faults, Light& light) {
+  const JsonValue* value = object.any("shadow");
+  if (value == nullptr) return;
+  if (value->kind == JsonValue::Kind::boolean) {
+    if (!value->boolean) light.shadow.technique = ShadowTechnique::none;
+    return;
+  }
+  if (!value->is_object()) {
+    object.error("shadow", fmt::format("expected true, false or an object, got {}", describe(*value)));
+    return;
+  }
+  JsonObject shadow(json, *value, faults);
+  read_technique(shadow, light);
+  read_map(shadow, light.shadow);
+  read_darkness(shadow, light.shadow);
+  shadow.report_unknown_members("a shadow");
+}
+
+}  // namespace laterna

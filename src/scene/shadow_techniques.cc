@@ -1,0 +1,28 @@
+#include <array>
+
+#include "laterna/scene.h"
+
+namespace laterna {
+namespace {
+
+constexpr std::array<TechniqueDescription, 3> kTechniques = {{
+    {ShadowTechnique::none, "none", "light passes through everything"},
+    {ShadowTechnique::map, "map",
+     "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
+    {ShadowTechnique::raytraced, "raytraced",
+     "hard shadows by rays: slow, exact, the reference for the others"},
+}};
+
+}  // namespace
+
+std::span<const TechniqueDescription> list_techniques() { return kTechniques; }
+
+std::string find_fault(ShadowTechnique technique, const Light& light) {
+  static_cast<void>(light);
+  for (const TechniqueDescription& known : kTechniques) {
+    if (known.technique == technique) return "";
+  }
+  return "there is no such shadow technique";
+}
+
+}  // namespace laterna
