@@ -48,7 +48,8 @@ struct RenderOptions {
               depth = "auto";
   std::string exposure = "0", background, debug;
   std::vector<std::string> layers;
-  int samples = 1, anisotropy = 8;
+  int samples = 1, anisotropy = 8, light_samples = 1;
+  double noise = 0;
   bool json = false;
 };
 
@@ -68,6 +69,8 @@ Result<RenderSettings> parse_settings(const RenderOptions& options) {
   settings.height = size->height;
   settings.samples = options.samples;
   settings.anisotropy = options.anisotropy;
+  settings.light_samples = options.light_samples;
+  settings.noise = options.noise;
   settings.shading = kShading.at(options.shading);
   settings.passes = kPasses.at(options.passes);
   settings.interpolation = kInterpolation.at(options.interpolation);
@@ -134,10 +137,20 @@ nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double
   for (const auto& light : s.shadow_memory) {
     memory.push_back({{"light", light.light}, {"maps", light.maps}, {"bytes", light.bytes}});
   }
-  return {{"load_ms", load_ms},         {"plan_ms", s.plan_ms},     {"shadow_ms", s.shadow_ms},
-          {"bin_ms", s.bin_ms},         {"shade_ms", s.shade_ms},   {"render_ms", s.total_ms},
-          {"write_ms", write_ms},       {"triangles", s.triangles}, {"triangles_drawn", s.triangles_drawn},
-          {"maps_drawn", s.maps_drawn}, {"maps_kept", s.maps_kept}, {"shadow_memory", memory}};
+  return {{"load_ms", load_ms},
+          {"plan_ms", s.plan_ms},
+          {"shadow_ms", s.shadow_ms},
+          {"bin_ms", s.bin_ms},
+          {"shade_ms", s.shade_ms},
+          {"render_ms", s.total_ms},
+          {"write_ms", write_ms},
+          {"triangles", s.triangles},
+          {"triangles_drawn", s.triangles_drawn},
+          {"maps_drawn", s.maps_drawn},
+          {"maps_kept", s.maps_kept},
+          {"shadow_memory", memory},
+          {"light_samples", s.light_samples},
+          {"noise", s.noise}};
 }
 
 class RenderCommand {
@@ -228,14 +241,26 @@ class RenderCommand {
     if (options_.debug.rfind(kProjectDepth, 0) == 0) {
       return projected_depth(renderer, view, settings, options_.debug.substr(kProjectDepth.size()));
     }
-    if (options_.debug != "depth")
-      return renderer.render(view, settings, progress_line("rendering"), &statistics);
+    if (options_.debug != "depth") return draw_light(renderer, view, settings, statistics);
     RenderSettings with_depth = settings;
     with_depth.layers = {Layer::depth};
     const Result<LayeredImage> image =
         renderer.render(view, with_depth, progress_line("rendering"), &statistics);
     if (!image) return image;
     return depth_picture(*image);
+  }
+
+  static Result<LayeredImage> draw_light(const Renderer& renderer, const View& view,
+                                         const RenderSettings& settings, RenderStatistics& statistics) {
+    Result<LayeredImage> image = renderer.render(view, settings, progress_line("rendering"), &statistics);
+    if (!image || settings.light_samples == 1) return image;
+    if (statistics.light_samples == 1) {
+      fmt::print(stderr, "laterna: note: --light-samples has no effect: no light has a size\n");
+    } else {
+      fmt::print(stderr, "laterna: mean of {} pictures, estimated noise {:.2g} % of the mean luminance\n",
+                 statistics.light_samples, 100 * statistics.noise);
+    }
+    return image;
   }
 
   const RenderOptions& options_;
@@ -262,6 +287,18 @@ void declare_picture_options(CLI::App& command, RenderOptions& o) {
   command
       .add_option("--shadows", o.shadows, "technique for lights that name none; --list-techniques tells more")
       ->check(CLI::IsMember(techniques))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--light-samples", o.light_samples,
+          "soft shadows: the mean of so many pictures, each lit from other points of the lights that\n"
+          "have a size (radius, size or angular_diameter_deg in a rig); best with --shadows exact")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command
+      .add_option("--noise", o.noise,
+                  "stop averaging at this estimated noise, a fraction of the mean luminance; 0: never")
+      ->check(CLI::Range(0.0, 0.999))
       ->capture_default_str();
   command
       .add_option("--shading", o.shading,

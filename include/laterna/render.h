@@ -50,6 +50,11 @@ struct RenderSettings {
   Interpolation interpolation = Interpolation::perspective;
   int anisotropy = 8;  ///< most probes of a stretched texture footprint, 1…16
   std::vector<Layer> layers;
+  /// Soft shadows: where a light has a size, the picture is the mean of this many, each lit from other points of it. 1: from
+  /// its middle. 1…65536.
+  int light_samples = 1;
+  /// No more pictures than it takes for this estimated noise, a fraction of the mean luminance. 0: all.
+  double noise = 0;
   bool keep_shadow_maps = true;  ///< false: drawn anew even where nothing has changed
 };
 
@@ -89,6 +94,9 @@ struct RenderStatistics {
   std::uint64_t triangles = 0,
                 triangles_drawn = 0;  ///< of the camera's view: considered, and sorted into tiles
   int maps_drawn = 0, maps_kept = 0;  ///< shadow maps
+  int light_samples = 1;              ///< pictures that were averaged
+  /// Estimated standard error of the picture's luminance, over all pixels, as a fraction of its mean. 0 for one picture.
+  double noise = 0;
   struct LightMemory {
     std::string light;
     int maps = 0;

@@ -170,11 +170,25 @@ std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& fra
 
 }  // namespace
 
+namespace {
+
+// The light itself, or one point of its source.
+const PlacedLight* place(const PlacedLight& placed, SourcePoint point, LightPlan& plan) {
+  if (point.count == 1 || !placed.light->source.has_size()) return &placed;
+  PlacedLight& moved = plan.placed_points.emplace_back(at_source_point(placed, point));
+  Light& light = plan.points.emplace_back(*placed.light);
+  light.source = {};
+  moved.light = &light;
+  return &moved;
+}
+
+}  // namespace
+
 LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings) {
   LightPlan plan;
   for (const PlacedLight& placed : frame.lights) {
     PlannedLight planned;
-    planned.placed = &placed;
+    planned.placed = place(placed, plan_settings.source_point, plan);
     planned.settings = placed.light->shadow;
     planned.technique = planned.settings.technique.value_or(plan_settings.technique);
     if (planned.settings.resolution == 0) {

@@ -2,9 +2,11 @@
 // technique wants. Matrices and lists only.
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "frame/frame.h"
+#include "light/source_points.h"
 
 namespace laterna::light {
 
@@ -23,10 +25,14 @@ struct PlannedLight {
 
 struct LightPlan {
   std::vector<PlannedLight> lights;  // in the frame's order
+  // Lights as they shine from one point of their source: moved, and without size.
+  std::deque<Light> points;
+  std::deque<frame::PlacedLight> placed_points;
 };
 
 struct PlanSettings {
   ShadowTechnique technique = ShadowTechnique::map;  // for lights that name none
+  SourcePoint source_point;
 };
 
 LightPlan make_light_plan(const frame::Frame& frame, const PlanSettings& settings);

@@ -36,23 +36,34 @@ using shade::TileResult;
 class ChannelList {
  public:
   template <class Find>  // Find: TileResult → const TilePlane*
-  void add(std::string name, Find find) {
-    channels_.push_back({std::move(name), [find](const TileResult& tile, TilePlane&) { return find(tile); }});
+  void add(std::string name, Find find, bool is_light = true) {
+    channels_.push_back(
+        {std::move(name), [find](const TileResult& tile, TilePlane&) { return find(tile); }, is_light});
+  }
+  template <class Find>
+  void add_data(std::string name, Find find) {
+    add(std::move(name), find, false);
   }
   template <class Find>  // Find: TileResult → const TileColor&
-  void add_color(const std::string& prefix, const std::array<const char*, 3>& suffixes, Find find) {
-    add(prefix + suffixes[0], [find](const TileResult& tile) { return &find(tile).r; });
-    add(prefix + suffixes[1], [find](const TileResult& tile) { return &find(tile).g; });
-    add(prefix + suffixes[2], [find](const TileResult& tile) { return &find(tile).b; });
+  void add_color(const std::string& prefix, const std::array<const char*, 3>& suffixes, Find find,
+                 bool is_light = true) {
+    add(
+        prefix + suffixes[0], [find](const TileResult& tile) { return &find(tile).r; }, is_light);
+    add(
+        prefix + suffixes[1], [find](const TileResult& tile) { return &find(tile).g; }, is_light);
+    add(
+        prefix + suffixes[2], [find](const TileResult& tile) { return &find(tile).b; }, is_light);
   }
   void add_object_ids() {
-    channels_.push_back({"id.object", [](const TileResult& tile, TilePlane& buffer) -> const TilePlane* {
+    channels_.push_back({"id.object",
+                         [](const TileResult& tile, TilePlane& buffer) -> const TilePlane* {
                            for (std::size_t i = 0; i < buffer.size(); ++i) {
                              const std::uint32_t id = tile.object[i];
                              buffer[i] = id == shade::kNoObject ? -1.0F : static_cast<float>(id);
                            }
                            return &buffer;
-                         }});
+                         },
+                         false});
   }
   std::vector<PictureChannel> take() { return std::move(channels_); }
 
@@ -80,14 +91,16 @@ void add_lights(ChannelList& list, const RenderSettings& settings, const frame::
   if (!has_layer(settings, Layer::uv)) return;
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     if (frame.lights[i].light->type != LightType::projector) continue;
-    list.add("uv." + frame.lights[i].light->name + ".u", [i](const TileResult& t) { return &t.slide_s[i]; });
-    list.add("uv." + frame.lights[i].light->name + ".v", [i](const TileResult& t) { return &t.slide_t[i]; });
+    list.add_data("uv." + frame.lights[i].light->name + ".u",
+                  [i](const TileResult& t) { return &t.slide_s[i]; });
+    list.add_data("uv." + frame.lights[i].light->name + ".v",
+                  [i](const TileResult& t) { return &t.slide_t[i]; });
   }
 }
 
 void add_passes(ChannelList& list, const RenderSettings& settings, const frame::Frame& frame) {
   if (!has_layer(settings, Layer::passes) || settings.passes != Passes::multi) return;
-  list.add("pass.1.z", [](const TileResult& t) { return &t.depth; });
+  list.add_data("pass.1.z", [](const TileResult& t) { return &t.depth; });
   list.add_color("pass.1.c.", kRgb, [](const TileResult& t) -> const TileColor& { return t.pass_colors[0]; });
   for (std::size_t i = 0; i < frame.lights.size(); ++i) {
     const std::string& name = frame.lights[i].light->name;
@@ -113,15 +126,18 @@ std::vector<PictureChannel> picture_channels(const RenderSettings& settings, con
   list.add("A", [](const TileResult& t) { return &t.alpha; });
   add_lights(list, settings, frame);
   if (has_layer(settings, Layer::lux)) list.add("lux.Y", [](const TileResult& t) { return &t.lux; });
-  if (has_layer(settings, Layer::depth)) list.add("Z", [](const TileResult& t) { return &t.depth; });
+  if (has_layer(settings, Layer::depth)) list.add_data("Z", [](const TileResult& t) { return &t.depth; });
   if (has_layer(settings, Layer::position)) {
-    list.add_color("P.", kXyz, [](const TileResult& t) -> const TileColor& { return t.position; });
+    list.add_color(
+        "P.", kXyz, [](const TileResult& t) -> const TileColor& { return t.position; }, false);
   }
   if (has_layer(settings, Layer::normal)) {
-    list.add_color("N.", kXyz, [](const TileResult& t) -> const TileColor& { return t.normal; });
+    list.add_color(
+        "N.", kXyz, [](const TileResult& t) -> const TileColor& { return t.normal; }, false);
   }
   if (has_layer(settings, Layer::albedo)) {
-    list.add_color("albedo.", kRgb, [](const TileResult& t) -> const TileColor& { return t.albedo; });
+    list.add_color(
+        "albedo.", kRgb, [](const TileResult& t) -> const TileColor& { return t.albedo; }, false);
   }
   if (has_layer(settings, Layer::object)) list.add_object_ids();
   add_passes(list, settings, frame);

@@ -18,6 +18,7 @@ using ChannelPlane =
 struct PictureChannel {
   std::string name;
   ChannelPlane plane;
+  bool is_light = false;  ///< an amount of light or coverage, of which means can be taken; others are data
 };
 
 bool has_layer(const RenderSettings& settings, Layer layer);

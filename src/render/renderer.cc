@@ -9,9 +9,11 @@
 #include "laterna/render.h"
 #include "light/light_plan.h"
 #include "render/camera_views.h"
+#include "render/cost_sum.h"
 #include "render/depth_map_cache.h"
 #include "render/metadata.h"
 #include "render/open_sheets.h"
+#include "render/picture_accumulation.h"
 #include "render/picture_writer.h"
 #include "render/progress_report.h"
 #include "render/scene_defaults.h"
@@ -136,6 +138,10 @@ struct Renderer::Implementation {
 
   Result<RenderStatistics> draw(const View& from, const RenderSettings& settings, const RenderTarget& target,
                                 const Progress& progress) const;
+  RenderStatistics draw_picture(const View& from, const RenderSettings& settings, light::SourcePoint point,
+                                const render::PictureWriter& writer, ProgressReport& progress) const;
+  RenderStatistics draw_mean(const View& from, const RenderSettings& settings, const RenderTarget& target,
+                             ProgressReport& progress) const;
   void draw_bands(const raster::RasterView& view, const RenderSettings& settings, shade::ShaderJob& job,
                   const render::PictureWriter& writer, RenderStatistics& statistics,
                   ProgressReport& progress) const;
@@ -264,11 +270,54 @@ void Renderer::Implementation::draw_bands(const raster::RasterView& view, const 
   }
 }
 
+// One picture: lights as they shine from one point of their sources.
+RenderStatistics Renderer::Implementation::draw_picture(const View& from, const RenderSettings& settings,
+                                                        light::SourcePoint point,
+                                                        const render::PictureWriter& writer,
+                                                        ProgressReport& progress) const {
+  Stopwatch watch;
+  watch.start();
+  RenderStatistics statistics;
+  const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows, point});
+  statistics.plan_ms = watch.lap_ms();
+  const raster::RasterView view(from, settings.width, settings.height);
+  shade::ShaderJob job = make_job(view, settings, plan, statistics, progress);
+  statistics.shadow_ms = watch.lap_ms();
+  if (!progress.is_cancelled()) draw_bands(view, settings, job, writer, statistics, progress);
+  statistics.total_ms = statistics.plan_ms + statistics.shadow_ms + watch.lap_ms();
+  return statistics;
+}
+
+// The mean of pictures lit from different points of the lights. The target has been checked.
+RenderStatistics Renderer::Implementation::draw_mean(const View& from, const RenderSettings& settings,
+                                                     const RenderTarget& target,
+                                                     ProgressReport& progress) const {
+  Stopwatch watch;
+  watch.start();
+  RenderStatistics statistics;
+  render::PictureAccumulation pictures(settings, frame, pool);
+  for (int i = 0; i < settings.light_samples && !progress.is_cancelled(); ++i) {
+    const Result<render::PictureWriter> writer =
+        render::PictureWriter::create(pictures.picture_settings(), pictures.picture_target(), frame, set);
+    const RenderStatistics one =
+        draw_picture(from, pictures.picture_settings(), {i, settings.light_samples}, *writer, progress);
+    if (progress.is_cancelled()) break;
+    pictures.add();
+    render::add_costs(statistics, one);
+    if (pictures.noise() <= settings.noise) break;
+  }
+  if (progress.is_cancelled()) return statistics;
+  statistics.light_samples = pictures.count();
+  statistics.noise = pictures.noise();
+  pictures.finish();
+  pictures.write(settings, target, set, frame);
+  statistics.total_ms = watch.lap_ms();
+  return statistics;
+}
+
 Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const RenderSettings& settings,
                                                         const RenderTarget& target,
                                                         const Progress& progress) const {
-  Stopwatch watch;
-  watch.start();
   if (Result<void> checked = render::check_settings(settings, from); !checked)
     return tl::unexpected(checked.error());
   if (Result<void> checked = render::check_technique(settings.shadows, frame); !checked)
@@ -277,19 +326,16 @@ Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const 
   if (!writer) return tl::unexpected(std::move(writer.error()));
 
   const Drawing drawing(*this);
-  RenderStatistics statistics;
-  const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows});
-  statistics.plan_ms = watch.lap_ms();
+  const bool has_size = std::any_of(frame.lights.begin(), frame.lights.end(),
+                                    [](const frame::PlacedLight& l) { return l.light->source.has_size(); });
+  const int pictures = has_size ? settings.light_samples : 1;
   ProgressReport report(progress, static_cast<std::size_t>(tiles_across(settings.width)) *
-                                      static_cast<std::size_t>(tiles_across(settings.height)));
-
-  const raster::RasterView view(from, settings.width, settings.height);
-  shade::ShaderJob job = make_job(view, settings, plan, statistics, report);
-  statistics.shadow_ms = watch.lap_ms();
-  if (!report.is_cancelled()) draw_bands(view, settings, job, *writer, statistics, report);
+                                      static_cast<std::size_t>(tiles_across(settings.height)) *
+                                      static_cast<std::size_t>(pictures));
+  const RenderStatistics statistics = pictures == 1 ? draw_picture(from, settings, {}, *writer, report)
+                                                    : draw_mean(from, settings, target, report);
   if (report.is_cancelled())
     return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
-  statistics.total_ms = statistics.plan_ms + statistics.shadow_ms + watch.lap_ms();
   return statistics;
 }
 
@@ -374,7 +420,7 @@ Result<void> Renderer::set_light(int light, Light value) {
 }
 
 Result<light::PlannedLight> Renderer::Implementation::planned_light(const std::string& name) const {
-  light::LightPlan plan = light::make_light_plan(frame, {ShadowTechnique::map});
+  light::LightPlan plan = light::make_light_plan(frame, {ShadowTechnique::map, {}});
   std::string names;
   for (light::PlannedLight& planned : plan.lights) {
     // Where a light asks for no shadow map, the one it would have is shown.

@@ -76,6 +76,15 @@ Result<void> check_settings(const RenderSettings& settings, const View& view) {
   for (const Layer layer : settings.layers) {
     if (!is_known(layer, Layer::passes)) return refuse("the settings ask for a layer that there is not");
   }
+  constexpr int kMostLightSamples = 65536;
+  if (settings.light_samples < 1 || settings.light_samples > kMostLightSamples) {
+    return refuse("points of a light must be from 1 to " + std::to_string(kMostLightSamples) + ", not " +
+                  std::to_string(settings.light_samples));
+  }
+  if (!(settings.noise >= 0 && settings.noise < 1)) {
+    return refuse("the noise to stop at must be a fraction from 0 up to 1, not " +
+                  std::to_string(settings.noise));
+  }
   if (settings.anisotropy < 1 || settings.anisotropy > 16) {
     return refuse("anisotropy must be from 1 to 16, not " + std::to_string(settings.anisotropy));
   }
