@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 struct Options {
   SceneOptions scene;
   ViewOptions view;
-  std::string workload, name = "W1", scenes, picture;
+  std::string workload, name = "W1", scenes, picture, shadows = "map";
   FrameSeries series;
   bool keep_maps = false, json = false;
 };
@@ -134,6 +134,9 @@ int run_bench(const Options& options) {
   Result<Subject> subject = options.workload.empty() ? prepare_scene(options) : prepare_workload(options);
   if (!subject) return report(subject.error());
   subject->settings.keep_shadow_maps = options.keep_maps;
+  for (const TechniqueDescription& t : list_techniques()) {
+    if (t.name == options.shadows) subject->settings.shadows = t.technique;
+  }
   const Result<FrameCosts> costs = draw_series(*subject, options.series, options.picture);
   if (!costs) return report(costs.error());
   if (options.json) {
@@ -159,6 +162,9 @@ void declare_bench(CLI::App& app, Run& run) {
       ->capture_default_str();
   command->add_option("--scenes", options->scenes,
                       "folder of the workload's models; default: scenes beside the file");
+  command->add_option("--shadows", options->shadows, "technique for lights that name none")
+      ->check(CLI::IsMember(technique_names()))
+      ->capture_default_str();
   command->add_option("--frames", options->series.frames, "frames that count")->capture_default_str();
   command->add_option("--warm-up", options->series.warm_up, "frames before them")->capture_default_str();
   command->add_flag("--cached", options->keep_maps, "keep shadow maps from frame to frame");

@@ -279,14 +279,12 @@ constexpr const char* kFooter =
     "  laterna render room.glb -o - | display\n";
 
 void declare_picture_options(CLI::App& command, RenderOptions& o) {
-  std::vector<std::string> techniques;
-  for (const TechniqueDescription& t : list_techniques()) techniques.emplace_back(t.name);
   command.add_option("--samples", o.samples, "samples per pixel: 1, 2, 4, 8 or 16")
       ->check(CLI::IsMember({1, 2, 4, 8, 16}))
       ->capture_default_str();
   command
       .add_option("--shadows", o.shadows, "technique for lights that name none; --list-techniques tells more")
-      ->check(CLI::IsMember(techniques))
+      ->check(CLI::IsMember(technique_names()))
       ->capture_default_str();
   command
       .add_option(

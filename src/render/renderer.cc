@@ -81,8 +81,9 @@ struct Renderer::Implementation {
     if (!built) return tl::unexpected(std::move(built.error()));
     frame = std::move(*built);
     ++casters_revision;
-    const std::lock_guard lock(rays_mutex);
+    const std::lock_guard lock(casters_mutex);
     rays.reset();
+    casters.reset();
     return {};
   }
 
@@ -98,9 +99,15 @@ struct Renderer::Implementation {
   }
 
   std::shared_ptr<const trace::RayScene> ray_scene() const {
-    const std::lock_guard lock(rays_mutex);
+    const std::lock_guard lock(casters_mutex);
     if (rays == nullptr) rays = std::make_shared<const trace::RayScene>(frame);
     return rays;
+  }
+
+  std::shared_ptr<const shadow::CasterTree> caster_tree() const {
+    const std::lock_guard lock(casters_mutex);
+    if (casters == nullptr) casters = std::make_shared<const shadow::CasterTree>(frame);
+    return casters;
   }
 
   // Everything the tiles share, with every shadow technique ready to answer.
@@ -122,7 +129,8 @@ struct Renderer::Implementation {
     job.instruction_set = set;
     const raster::RasterView::Ray ray = view.homogeneous_ray();
     render::ShadowCasting casting({frame, pool, set, casters_revision, bins, maps,
-                                   [this] { return ray_scene(); }, view, settings, statistics, progress});
+                                   [this] { return ray_scene(); }, [this] { return caster_tree(); }, view,
+                                   settings, statistics, progress});
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
@@ -179,8 +187,9 @@ struct Renderer::Implementation {
   mutable render::DepthMapCache maps;
   mutable render::ReusePool<shadow::DepthMap> shown_maps;  // whose memory depth_map() draws into
   mutable std::atomic<int> pictures_drawn_now = 0;
-  mutable std::mutex rays_mutex;
+  mutable std::mutex casters_mutex;
   mutable std::shared_ptr<const trace::RayScene> rays;
+  mutable std::shared_ptr<const shadow::CasterTree> casters;
 };
 
 Renderer::Renderer(std::unique_ptr<Implementation> implementation)

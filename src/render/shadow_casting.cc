@@ -1,5 +1,6 @@
 #include "render/shadow_casting.h"
 
+#include "shadow/exact_shadow.h"
 #include "shadow/ray_traced.h"
 #include "shadow/shadow_map.h"
 
@@ -10,6 +11,8 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make(const light::Planne
   switch (planned.technique) {
     case ShadowTechnique::map:
       return make_map(planned, index);
+    case ShadowTechnique::exact:
+      return make_exact(planned);
     case ShadowTechnique::raytraced:
       return std::make_unique<shadow::RayTracedShadow>(planned, context_.ray_scene());
     default:
@@ -36,6 +39,15 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::Pl
   return std::make_unique<shadow::ShadowMap>(planned, found.maps, context_.frame,
                                              context_.camera.homogeneous_ray(), context_.settings.samples,
                                              context_.instruction_set, asks_to_stop);
+}
+
+// The tree is all lights': the first is said to hold it.
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_exact(const light::PlannedLight& planned) {
+  std::shared_ptr<const shadow::CasterTree> tree = context_.caster_tree();
+  report_memory(planned, 0, has_reported_tree_ ? 0 : tree->memory_bytes());
+  has_reported_tree_ = true;
+  return std::make_unique<shadow::ExactShadow>(planned, context_.frame, std::move(tree),
+                                               context_.instruction_set);
 }
 
 void ShadowCasting::report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes) {

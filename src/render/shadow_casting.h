@@ -8,12 +8,14 @@
 #include "light/light_plan.h"
 #include "render/depth_map_cache.h"
 #include "render/progress_report.h"
+#include "shadow/caster_tree.h"
 #include "shadow/shadow_technique.h"
 #include "trace/ray_scene.h"
 
 namespace laterna::render {
 
-/// What shadow techniques of one picture are made of. `ray_scene` is asked for where a technique needs it.
+/// What shadow techniques of one picture are made of. `ray_scene` and `caster_tree` are asked for where a technique needs
+/// them.
 struct CastingContext {
   const frame::Frame& frame;
   const TaskPool& pool;
@@ -22,6 +24,7 @@ struct CastingContext {
   BinsPool& bins;
   DepthMapCache& maps;
   std::function<std::shared_ptr<const trace::RayScene>()> ray_scene;
+  std::function<std::shared_ptr<const shadow::CasterTree>()> caster_tree;
   const raster::RasterView& camera;
   const RenderSettings& settings;
   RenderStatistics& statistics;
@@ -39,10 +42,12 @@ class ShadowCasting {
  private:
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_map(const light::PlannedLight& planned,
                                                                   std::size_t index);
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_exact(const light::PlannedLight& planned);
   void report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes);
 
   CastingContext context_;
   std::size_t working_bytes_ = 0;  // of the picture's maps so far
+  bool has_reported_tree_ = false;
 };
 
 }  // namespace laterna::render

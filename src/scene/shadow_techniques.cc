@@ -5,10 +5,12 @@
 namespace laterna {
 namespace {
 
-constexpr std::array<TechniqueDescription, 3> kTechniques = {{
+constexpr std::array<TechniqueDescription, 4> kTechniques = {{
     {ShadowTechnique::none, "none", "light passes through everything"},
     {ShadowTechnique::map, "map",
      "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
+    {ShadowTechnique::exact, "exact",
+     "hard shadows to the last bit: every sample against every triangle in its way, without a map"},
     {ShadowTechnique::raytraced, "raytraced",
      "hard shadows by rays: slow, exact, the reference for the others"},
 }};

@@ -1,0 +1,64 @@
+#include "shadow/exact_crossing.h"
+
+#include <glm/geometric.hpp>
+#include <limits>
+#include <tuple>
+
+namespace laterna::shadow {
+namespace {
+
+bool comes_first(const glm::vec3& a, const glm::vec3& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+// Six times the volume between the way to the light and an edge: on which side of the edge the way passes. The edge's
+// ends are taken in one order whatever the triangle's, so that the triangle beyond the edge sees exactly the opposite.
+double side_of(const glm::dvec3& way, const glm::dvec3& from, const glm::vec3& a, const glm::vec3& b) {
+  if (comes_first(b, a)) return -side_of(way, from, b, a);
+  return glm::dot(way, glm::cross(glm::dvec3(a) - from, glm::dvec3(b) - from));
+}
+
+}  // namespace
+
+LightRays::LightRays(const frame::PlacedLight& placed)
+    : position_ws(placed.pose.position_ws), forward_ws(placed.pose.forward_ws()), has_near(false), near(0) {
+  const Light& light = *placed.light;
+  is_parallel = light.type == LightType::directional ||
+                (light.type == LightType::projector && placed.view.projection.is_orthographic);
+  if (light.type == LightType::projector || (light.type == LightType::directional && !light.fit)) {
+    has_near = true;
+    near = placed.view.projection.near;
+  }
+}
+
+// Segura and Feito 2001, Algorithms to test ray-triangle intersection: signs of volumes.
+Crossing find_crossing(const LightRays& light, const glm::vec3& position_ws, float nearest,
+                       const CornersOfTriangle& t) {
+  const glm::dvec3 p(position_ws);
+  const glm::dvec3 way = light.is_parallel ? light.forward_ws : p - light.position_ws;  // of the light
+  const double of_a = side_of(way, p, t.b, t.c);
+  const double of_b = side_of(way, p, t.c, t.a);
+  const double of_c = side_of(way, p, t.a, t.b);
+  const bool is_outside = (of_a < 0 || of_b < 0 || of_c < 0) && (of_a > 0 || of_b > 0 || of_c > 0);
+  const double sum = of_a + of_b + of_c;
+  if (is_outside || sum == 0) return {};
+  const glm::dvec3 to_a = glm::dvec3(t.a) - p;
+  const glm::dvec3 normal = glm::cross(glm::dvec3(t.b) - glm::dvec3(t.a), glm::dvec3(t.c) - glm::dvec3(t.a));
+  const double against = glm::dot(normal, way);
+  if (against == 0) return {};
+  const double whole = glm::length(way);
+  const double distance = -glm::dot(normal, to_a) / against * whole;
+  double farthest = light.is_parallel ? std::numeric_limits<double>::infinity() : whole;
+  if (light.has_near) {
+    const double along = glm::dot(p - light.position_ws, light.forward_ws);
+    if (light.is_parallel) {
+      farthest = along - light.near;
+    } else {
+      farthest = along > 0 ? whole * (1 - light.near / along) : 0;
+    }
+  }
+  if (distance < nearest || distance > farthest) return {};
+  return {true, static_cast<float>(of_b / sum), static_cast<float>(of_c / sum)};
+}
+
+}  // namespace laterna::shadow

@@ -1,0 +1,37 @@
+// Whether the way from a point to a light meets a triangle, decided in double precision, with no tolerance but the one
+// that every technique keeps from the point itself.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "light/light_plan.h"
+
+namespace laterna::shadow {
+
+/// A light as rays toward it see it.
+struct LightRays {
+  explicit LightRays(const frame::PlacedLight& placed);
+
+  bool is_parallel;
+  glm::dvec3 position_ws;  ///< of the light; of a parallel one, any point of its near plane's view
+  glm::dvec3 forward_ws;   ///< unit: its axis; of a parallel light, the direction in which it shines
+  /// Casters nearer than this along the axis do not count; where there is no such plane it does not either.
+  bool has_near;
+  double near;
+};
+
+struct CornersOfTriangle {
+  glm::vec3 a, b, c;
+};
+
+struct Crossing {
+  bool blocks = false;
+  float b = 0, c = 0;  ///< weights of the second and third corner where it is met
+};
+
+/// The sample at `position_ws`, from `nearest` metres toward the light up to the light or its near plane. On an edge is
+/// inside: of two triangles that share one, no ray slips between, because both see the very same sign of it.
+Crossing find_crossing(const LightRays& light, const glm::vec3& position_ws, float nearest,
+                       const CornersOfTriangle& triangle);
+
+}  // namespace laterna::shadow

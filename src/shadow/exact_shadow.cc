@@ -1,0 +1,33 @@
+#include "shadow/exact_shadow.h"
+
+#include <algorithm>
+
+namespace laterna::shadow {
+
+namespace {
+
+std::uint32_t number_of(const light::PlannedLight& planned, const frame::Frame& frame) {
+  return static_cast<std::uint32_t>(planned.placed - frame.lights.data());
+}
+
+}  // namespace
+
+ExactShadow::ExactShadow(const light::PlannedLight& planned, const frame::Frame& frame,
+                         std::shared_ptr<const CasterTree> tree, InstructionSet set)
+    : tree_(std::move(tree)),
+      test_{&frame, tree_.get(), LightRays(*planned.placed), number_of(planned, frame)},
+      set_(set) {}
+
+double ExactShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+                                 Arrival& arrival) const {
+  arrival.is_tinted = false;
+  std::array<std::uint16_t, kMaxGroups> lit{};
+  std::copy(wanted.begin(), wanted.end(), lit.begin());
+  keep_lit_for(set_)(test_, samples, std::span(lit).first(samples.group_count));
+  for (std::size_t i = 0; i < samples.group_count * kGroupSize; ++i) {
+    arrival.alpha[i] = static_cast<float>(lit[i / kGroupSize] >> (i % kGroupSize) & 1U);
+  }
+  return 0;
+}
+
+}  // namespace laterna::shadow

@@ -1,0 +1,39 @@
+// Hard shadows without a map: every sample is held against the triangles that may stand between it and the light. No
+// resolution, no bias.
+#pragma once
+
+#include <memory>
+
+#include "shadow/caster_tree.h"
+#include "shadow/exact_crossing.h"
+#include "shadow/shadow_technique.h"
+
+namespace laterna::shadow {
+
+struct ExactShadowTest {
+  const frame::Frame* frame;
+  const CasterTree* tree;
+  LightRays light;
+  std::uint32_t number;  ///< tells lights apart
+};
+
+/// Takes from `lit`, a bit for each sample by group, those that do not see the light. Which instruction set does it
+/// cannot be seen.
+using KeepLit = void (*)(const ExactShadowTest& test, const SurfaceSamples& samples,
+                         std::span<std::uint16_t> lit);
+KeepLit keep_lit_for(InstructionSet set);
+
+class ExactShadow final : public ShadowTechnique {
+ public:
+  ExactShadow(const light::PlannedLight& planned, const frame::Frame& frame,
+              std::shared_ptr<const CasterTree> tree, InstructionSet set);
+  double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+                      Arrival& arrival) const override;
+
+ private:
+  std::shared_ptr<const CasterTree> tree_;
+  ExactShadowTest test_;
+  InstructionSet set_;
+};
+
+}  // namespace laterna::shadow
