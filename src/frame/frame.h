@@ -98,6 +98,7 @@ class Frame {
   std::vector<PlacedCamera> cameras;
   Bounds bounds;
   bool has_blending = false;
+  bool has_blended_casters = false;
   bool all_receive_shadows = true;
   std::shared_ptr<const TextureLibrary> textures;
 };

@@ -65,9 +65,8 @@ HWY_INLINE FloatMask FindHoles(const Frame& frame, const TriangleCorners<false>&
     return hn::GatherIndex(di, words + offset / sizeof(std::int32_t),
                            corners.Clusters() * SplatInt(sizeof(Cluster) / sizeof(std::int32_t)));
   };
-  const auto has_holes =
-      hn::And(read(offsetof(Cluster, flags)),
-              SplatInt(static_cast<std::int32_t>(kAlphaMask | kAlphaBlend))) != hn::Zero(di);
+  const auto has_holes = hn::And(read(offsetof(Cluster, flags)),
+                                 SplatInt(static_cast<std::int32_t>(kAlphaMask))) != hn::Zero(di);
   auto left = hn::And(asked, hn::RebindMask(d, has_holes));
   auto holes = Splat(0.0F) > Splat(1.0F);
   if (hn::AllFalse(d, left)) return holes;
@@ -78,7 +77,7 @@ HWY_INLINE FloatMask FindHoles(const Frame& frame, const TriangleCorners<false>&
     const std::int32_t index = materials[lane];
     const Surface& surface = frame.surfaces[static_cast<std::size_t>(index)];
     const auto here = hn::And(left, hn::RebindMask(d, material == SplatInt(index)));
-    const auto is_hole = AlphaAtFullSize(frame, surface, corners, weights) < Splat(cutoff_of(surface));
+    const auto is_hole = AlphaAtFullSize(frame, surface, corners, weights) < Splat(surface.alpha_cutoff);
     holes = hn::Or(holes, hn::And(here, is_hole));
     left = hn::AndNot(here, left);
   }

@@ -50,10 +50,6 @@ float texture_alpha(const TextureBinding& binding, float u, float v) {
 
 }  // namespace
 
-float cutoff_of(const Surface& surface) {
-  return surface.alpha_mode == AlphaMode::mask ? surface.alpha_cutoff : 0.5F;
-}
-
 float alpha_at(const Frame& frame, TriangleId id, float b, float c) {
   const std::uint32_t cluster = cluster_of(id);
   const Surface& surface = frame.surfaces[frame.clusters[cluster].material];

@@ -9,7 +9,4 @@ namespace laterna::frame {
 /// vertex colour and the full-size texture, bilinearly filtered.
 float alpha_at(const Frame& frame, TriangleId id, float b, float c);
 
-/// The alpha below which a surface is a hole. Blended surfaces, where they are cut at all (shadows), are cut at a half.
-float cutoff_of(const Surface& surface);
-
 }  // namespace laterna::frame

@@ -188,6 +188,7 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
   LightPlan plan;
   for (const PlacedLight& placed : frame.lights) {
     PlannedLight planned;
+    planned.number = static_cast<std::uint32_t>(plan.lights.size());
     planned.placed = place(placed, plan_settings.source_point, plan);
     planned.settings = placed.light->shadow;
     planned.technique = planned.settings.technique.value_or(plan_settings.technique);

@@ -18,6 +18,7 @@ struct ShadowView {
 
 struct PlannedLight {
   const frame::PlacedLight* placed = nullptr;
+  std::uint32_t number = 0;  // in the frame's order
   ShadowTechnique technique = ShadowTechnique::none;
   ShadowSettings settings;               // resolution filled in
   std::vector<ShadowView> shadow_views;  // map: one, or six for a light that shines all round

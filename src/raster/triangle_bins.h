@@ -120,7 +120,7 @@ enum class CullFaces : std::uint8_t {
 struct BinOptions {
   CullFaces cull = CullFaces::none;
   std::uint32_t required_flags = 0;  ///< only clusters with all of these
-  bool blend_as_mask = false;        ///< blended surfaces are cut by their alpha instead of being kept apart
+  std::uint32_t excluded_flags = 0;  ///< no clusters with any of these
   bool nearest_first = true;         ///< sort clusters front to back: fewer samples are drawn over
   Rect pixels;                       ///< what is needed of the picture
   int sample_reach = 0;              ///< largest sample offset from the pixel centre, in 1/256 pixel

@@ -84,6 +84,7 @@ struct Renderer::Implementation {
     const std::lock_guard lock(casters_mutex);
     rays.reset();
     casters.reset();
+    panes.reset();
     return {};
   }
 
@@ -104,10 +105,11 @@ struct Renderer::Implementation {
     return rays;
   }
 
-  std::shared_ptr<const shadow::CasterTree> caster_tree() const {
+  std::shared_ptr<const shadow::CasterTree> caster_tree(shadow::CasterTree::Casters which) const {
     const std::lock_guard lock(casters_mutex);
-    if (casters == nullptr) casters = std::make_shared<const shadow::CasterTree>(frame);
-    return casters;
+    auto& tree = which == shadow::CasterTree::Casters::opaque ? casters : panes;
+    if (tree == nullptr) tree = std::make_shared<const shadow::CasterTree>(frame, which);
+    return tree;
   }
 
   // Everything the tiles share, with every shadow technique ready to answer.
@@ -129,8 +131,9 @@ struct Renderer::Implementation {
     job.instruction_set = set;
     const raster::RasterView::Ray ray = view.homogeneous_ray();
     render::ShadowCasting casting({frame, pool, set, casters_revision, bins, maps,
-                                   [this] { return ray_scene(); }, [this] { return caster_tree(); }, view,
-                                   settings, statistics, progress});
+                                   [this] { return ray_scene(); },
+                                   [this](shadow::CasterTree::Casters which) { return caster_tree(which); },
+                                   view, settings, statistics, progress});
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
@@ -189,7 +192,7 @@ struct Renderer::Implementation {
   mutable std::atomic<int> pictures_drawn_now = 0;
   mutable std::mutex casters_mutex;
   mutable std::shared_ptr<const trace::RayScene> rays;
-  mutable std::shared_ptr<const shadow::CasterTree> casters;
+  mutable std::shared_ptr<const shadow::CasterTree> casters, panes;
 };
 
 Renderer::Renderer(std::unique_ptr<Implementation> implementation)

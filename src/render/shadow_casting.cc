@@ -6,8 +6,26 @@
 
 namespace laterna::render {
 
+// Blended casters tint whatever technique finds the shadows of the others.
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make(const light::PlannedLight& planned,
                                                              std::size_t index) {
+  std::unique_ptr<shadow::ShadowTechnique> opaque = make_opaque(planned, index);
+  if (opaque == nullptr || !context_.frame.has_blended_casters) return opaque;
+  return std::make_unique<shadow::ShadowThroughPanes>(std::move(opaque), make_panes(planned), context_.frame,
+                                                      context_.instruction_set);
+}
+
+std::unique_ptr<shadow::PaneFinder> ShadowCasting::make_panes(const light::PlannedLight& planned) {
+  if (planned.technique == ShadowTechnique::raytraced) {
+    return std::make_unique<shadow::RayTracedPanes>(planned, context_.ray_scene());
+  }
+  return std::make_unique<shadow::ExactPanes>(planned, context_.frame,
+                                              context_.caster_tree(shadow::CasterTree::Casters::blended),
+                                              context_.instruction_set);
+}
+
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light::PlannedLight& planned,
+                                                                    std::size_t index) {
   switch (planned.technique) {
     case ShadowTechnique::map:
       return make_map(planned, index);
@@ -43,7 +61,7 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::Pl
 
 // The tree is all lights': the first is said to hold it.
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_exact(const light::PlannedLight& planned) {
-  std::shared_ptr<const shadow::CasterTree> tree = context_.caster_tree();
+  std::shared_ptr<const shadow::CasterTree> tree = context_.caster_tree(shadow::CasterTree::Casters::opaque);
   report_memory(planned, 0, has_reported_tree_ ? 0 : tree->memory_bytes());
   has_reported_tree_ = true;
   return std::make_unique<shadow::ExactShadow>(planned, context_.frame, std::move(tree),

@@ -9,6 +9,7 @@
 #include "render/depth_map_cache.h"
 #include "render/progress_report.h"
 #include "shadow/caster_tree.h"
+#include "shadow/panes.h"
 #include "shadow/shadow_technique.h"
 #include "trace/ray_scene.h"
 
@@ -24,7 +25,7 @@ struct CastingContext {
   BinsPool& bins;
   DepthMapCache& maps;
   std::function<std::shared_ptr<const trace::RayScene>()> ray_scene;
-  std::function<std::shared_ptr<const shadow::CasterTree>()> caster_tree;
+  std::function<std::shared_ptr<const shadow::CasterTree>(shadow::CasterTree::Casters)> caster_tree;
   const raster::RasterView& camera;
   const RenderSettings& settings;
   RenderStatistics& statistics;
@@ -40,6 +41,9 @@ class ShadowCasting {
                                                               std::size_t index);
 
  private:
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_opaque(const light::PlannedLight& planned,
+                                                                     std::size_t index);
+  [[nodiscard]] std::unique_ptr<shadow::PaneFinder> make_panes(const light::PlannedLight& planned);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_map(const light::PlannedLight& planned,
                                                                   std::size_t index);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_exact(const light::PlannedLight& planned);

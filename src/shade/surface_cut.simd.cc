@@ -30,7 +30,7 @@ HWY_INLINE std::uint32_t FindKept(const CutSource& source, const frame::Surface&
       source.full_size
           ? frame::HWY_NAMESPACE::AlphaAtFullSize(frame, surface, corners, hit.weights)
           : frame::HWY_NAMESPACE::AlphaInView(frame, surface, corners, hit.weights, source.points.anisotropy);
-  return BitsOf(alpha >= Splat(frame::cutoff_of(surface)));
+  return BitsOf(alpha >= Splat(surface.alpha_cutoff));
 }
 
 void keep_above_cutoff(const CutSource& source, TriangleId id, const raster::CutSamples& samples,

@@ -53,10 +53,11 @@ constexpr int kDeepestSurvey = 60;
 // splits make one node.
 class CasterTree::Builder {
  public:
-  Builder(const frame::Frame& frame, CasterTree& tree) : frame_(frame), tree_(tree) {
+  Builder(const frame::Frame& frame, Casters casters, CasterTree& tree) : frame_(frame), tree_(tree) {
+    const std::uint32_t asked = casters == Casters::blended ? kAlphaBlend : 0U;
     for (std::uint32_t c = 0; c < frame.clusters.size(); ++c) {
       const Cluster& cluster = frame.clusters[c];
-      if ((cluster.flags & kCastsShadow) == 0) continue;
+      if ((cluster.flags & kCastsShadow) == 0 || (cluster.flags & kAlphaBlend) != asked) continue;
       for (std::uint32_t t = 0; t < cluster.triangle_count; ++t) add(c << kTriangleBits | t);
     }
   }
@@ -218,6 +219,6 @@ class CasterTree::Builder {
   std::vector<Caster> casters_;
 };
 
-CasterTree::CasterTree(const frame::Frame& frame) { Builder(frame, *this).build(); }
+CasterTree::CasterTree(const frame::Frame& frame, Casters casters) { Builder(frame, casters, *this).build(); }
 
 }  // namespace laterna::shadow

@@ -34,8 +34,9 @@ inline constexpr std::size_t kMostNodesAhead = 2048;
 
 class CasterTree {
  public:
-  /// Of the clusters that cast shadows.
-  explicit CasterTree(const frame::Frame& frame);
+  /// Of the clusters that cast shadows: those that are not blended, or those that are.
+  enum class Casters : std::uint8_t { opaque, blended };
+  CasterTree(const frame::Frame& frame, Casters casters);
 
   [[nodiscard]] bool is_empty() const { return packets_.empty(); }
   /// The first is the root.

@@ -18,6 +18,10 @@ double side_of(const glm::dvec3& way, const glm::dvec3& from, const glm::vec3& a
   return glm::dot(way, glm::cross(glm::dvec3(a) - from, glm::dvec3(b) - from));
 }
 
+bool is_left(double side, const glm::vec3& a, const glm::vec3& b) {
+  return side == 0 ? comes_first(a, b) : side > 0;
+}
+
 }  // namespace
 
 LightRays::LightRays(const frame::PlacedLight& placed)
@@ -33,13 +37,18 @@ LightRays::LightRays(const frame::PlacedLight& placed)
 
 // Segura and Feito 2001, Algorithms to test ray-triangle intersection: signs of volumes.
 Crossing find_crossing(const LightRays& light, const glm::vec3& position_ws, float nearest,
-                       const CornersOfTriangle& t) {
+                       const CornersOfTriangle& t, OnEdge on_edge) {
   const glm::dvec3 p(position_ws);
   const glm::dvec3 way = light.is_parallel ? light.forward_ws : p - light.position_ws;  // of the light
   const double of_a = side_of(way, p, t.b, t.c);
   const double of_b = side_of(way, p, t.c, t.a);
   const double of_c = side_of(way, p, t.a, t.b);
-  const bool is_outside = (of_a < 0 || of_b < 0 || of_c < 0) && (of_a > 0 || of_b > 0 || of_c > 0);
+  bool is_outside = (of_a < 0 || of_b < 0 || of_c < 0) && (of_a > 0 || of_b > 0 || of_c > 0);
+  if (on_edge == OnEdge::of_one) {
+    // On an edge, the way is taken to pass on the left of it as its ends are ordered.
+    const bool left_of_a = is_left(of_a, t.b, t.c), left_of_b = is_left(of_b, t.c, t.a);
+    is_outside = left_of_a != left_of_b || left_of_a != is_left(of_c, t.a, t.b);
+  }
   const double sum = of_a + of_b + of_c;
   if (is_outside || sum == 0) return {};
   const glm::dvec3 to_a = glm::dvec3(t.a) - p;

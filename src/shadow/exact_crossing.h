@@ -2,6 +2,7 @@
 // that every technique keeps from the point itself.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 
 #include "light/light_plan.h"
@@ -29,9 +30,13 @@ struct Crossing {
   float b = 0, c = 0;  ///< weights of the second and third corner where it is met
 };
 
-/// The sample at `position_ws`, from `nearest` metres toward the light up to the light or its near plane. On an edge is
-/// inside: of two triangles that share one, no ray slips between, because both see the very same sign of it.
+/// Whose a way is that passes exactly through an edge: of both triangles that share it, so that nothing slips between, or
+/// of one, so that nothing is met twice.
+enum class OnEdge : std::uint8_t { of_both, of_one };
+
+/// The sample at `position_ws`, from `nearest` metres toward the light up to the light or its near plane. Of two triangles
+/// that share an edge both see the very same sign of it.
 Crossing find_crossing(const LightRays& light, const glm::vec3& position_ws, float nearest,
-                       const CornersOfTriangle& triangle);
+                       const CornersOfTriangle& triangle, OnEdge on_edge = OnEdge::of_both);
 
 }  // namespace laterna::shadow

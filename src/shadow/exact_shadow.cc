@@ -4,18 +4,10 @@
 
 namespace laterna::shadow {
 
-namespace {
-
-std::uint32_t number_of(const light::PlannedLight& planned, const frame::Frame& frame) {
-  return static_cast<std::uint32_t>(planned.placed - frame.lights.data());
-}
-
-}  // namespace
-
 ExactShadow::ExactShadow(const light::PlannedLight& planned, const frame::Frame& frame,
                          std::shared_ptr<const CasterTree> tree, InstructionSet set)
     : tree_(std::move(tree)),
-      test_{&frame, tree_.get(), LightRays(*planned.placed), number_of(planned, frame)},
+      test_{&frame, tree_.get(), LightRays(*planned.placed), planned.number},
       set_(set) {}
 
 double ExactShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
@@ -28,6 +20,17 @@ double ExactShadow::find_arrival(const SurfaceSamples& samples, std::span<const 
     arrival.alpha[i] = static_cast<float>(lit[i / kGroupSize] >> (i % kGroupSize) & 1U);
   }
   return 0;
+}
+
+ExactPanes::ExactPanes(const light::PlannedLight& planned, const frame::Frame& frame,
+                       std::shared_ptr<const CasterTree> blended, InstructionSet set)
+    : tree_(std::move(blended)),
+      test_{&frame, tree_.get(), LightRays(*planned.placed), planned.number},
+      set_(set) {}
+
+void ExactPanes::find(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+                      std::vector<PaneCrossing>& crossings) const {
+  find_panes_for(set_)(test_, samples, wanted, crossings);
 }
 
 }  // namespace laterna::shadow

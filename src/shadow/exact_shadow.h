@@ -6,6 +6,7 @@
 
 #include "shadow/caster_tree.h"
 #include "shadow/exact_crossing.h"
+#include "shadow/panes.h"
 #include "shadow/shadow_technique.h"
 
 namespace laterna::shadow {
@@ -22,6 +23,10 @@ struct ExactShadowTest {
 using KeepLit = void (*)(const ExactShadowTest& test, const SurfaceSamples& samples,
                          std::span<std::uint16_t> lit);
 KeepLit keep_lit_for(InstructionSet set);
+/// Appends where the ways of the `wanted` samples to the light cross triangles of the tree, in any order.
+using FindPanes = void (*)(const ExactShadowTest& test, const SurfaceSamples& samples,
+                           std::span<const std::uint16_t> wanted, std::vector<PaneCrossing>& crossings);
+FindPanes find_panes_for(InstructionSet set);
 
 class ExactShadow final : public ShadowTechnique {
  public:
@@ -29,6 +34,20 @@ class ExactShadow final : public ShadowTechnique {
               std::shared_ptr<const CasterTree> tree, InstructionSet set);
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                       Arrival& arrival) const override;
+
+ private:
+  std::shared_ptr<const CasterTree> tree_;
+  ExactShadowTest test_;
+  InstructionSet set_;
+};
+
+/// The panes in the way, from a tree of blended casters.
+class ExactPanes final : public PaneFinder {
+ public:
+  ExactPanes(const light::PlannedLight& planned, const frame::Frame& frame,
+             std::shared_ptr<const CasterTree> blended, InstructionSet set);
+  void find(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+            std::vector<PaneCrossing>& crossings) const override;
 
  private:
   std::shared_ptr<const CasterTree> tree_;

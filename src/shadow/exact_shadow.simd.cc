@@ -442,8 +442,10 @@ struct RecentPackets {
 template <bool kParallel>
 class BatchTest {
  public:
-  BatchTest(const ExactShadowTest& test, const SurfaceSamples& samples, std::span<std::uint16_t> lit)
-      : test_(test), samples_(samples), lit_(lit) {}
+  /// With `panes`, triangles darken nothing: where they are crossed is noted.
+  BatchTest(const ExactShadowTest& test, const SurfaceSamples& samples, std::span<std::uint16_t> lit,
+            std::vector<PaneCrossing>* panes)
+      : test_(test), samples_(samples), lit_(lit), panes_(panes) {}
 
   void Run() {
     Bundle bundle;
@@ -804,7 +806,10 @@ class BatchTest {
     RecentPackets& recent = RecentPackets::of(test_);
     const RecentPackets first = recent;
     for (const std::uint32_t index : first.packets) {
-      if (index < test_.tree->packet_count()) StreamPacket(bundle, index, bundle.alive, recent);
+      // Through panes nothing is dark soon, and each is looked for once.
+      if (panes_ == nullptr && index < test_.tree->packet_count()) {
+        StreamPacket(bundle, index, bundle.alive, recent);
+      }
     }
     if (bundle.alive == 0) return;
     std::uint32_t ahead[kMostNodesAhead];
@@ -817,7 +822,8 @@ class BatchTest {
         const std::uint32_t child = node.child[place];
         if ((child & kIsPacket) == 0) {
           ahead[count++] = child;
-        } else if (const std::uint32_t index = child & ~kIsPacket; !first.contains(index)) {
+        } else if (const std::uint32_t index = child & ~kIsPacket;
+                   panes_ != nullptr || !first.contains(index)) {
           const std::uint32_t groups = GroupsBehindBox(shaft, bundle, node, place);
           if (groups == 0) continue;
           StreamPacket(bundle, index, groups, recent);
@@ -887,7 +893,7 @@ class BatchTest {
     };
     candidate.id = packet.id[lane];
     candidate.at = {corner_ws(0), corner_ws(1), corner_ws(2)};
-    candidate.needs_double = HasHoles(candidate.id) || MayBeBeforeLight(candidate.at);
+    candidate.needs_double = panes_ != nullptr || HasHoles(candidate.id) || MayBeBeforeLight(candidate.at);
     const auto from_middle = [&](const glm::vec3& p)
                                  HWY_ATTR { return bundle.axes.of(glm::dvec3(p) - bundle.centre_ws); };
     const Corners corners = {from_middle(candidate.at.a), from_middle(candidate.at.b),
@@ -913,7 +919,7 @@ class BatchTest {
   // ------------------------------------------------------------------------------------------ what is decided in double
 
   [[nodiscard]] bool HasHoles(TriangleId id) const {
-    return (test_.frame->clusters[cluster_of(id)].flags & (kAlphaMask | kAlphaBlend)) != 0;
+    return (test_.frame->clusters[cluster_of(id)].flags & kAlphaMask) != 0;
   }
 
   // Whether some of it may lie before the light's near plane.
@@ -928,28 +934,47 @@ class BatchTest {
 
   [[nodiscard]] bool IsDarkened(std::size_t i, const CornersOfTriangle& triangle, TriangleId id) const {
     const glm::vec3 position(samples_.x_ws[i], samples_.y_ws[i], samples_.z_ws[i]);
-    const Crossing crossing = find_crossing(test_.light, position, nearest_blocker(samples_, i), triangle);
+    const OnEdge on_edge = panes_ == nullptr ? OnEdge::of_both : OnEdge::of_one;
+    const Crossing crossing =
+        find_crossing(test_.light, position, nearest_blocker(samples_, i), triangle, on_edge);
     if (!crossing.blocks) return false;
+    if (panes_ != nullptr) {
+      panes_->push_back({static_cast<std::uint32_t>(i), id, crossing.b, crossing.c});
+      return false;
+    }
     if (!HasHoles(id)) return true;
     const frame::Surface& surface = test_.frame->surfaces[test_.frame->clusters[cluster_of(id)].material];
-    return !(frame::alpha_at(*test_.frame, id, crossing.b, crossing.c) < frame::cutoff_of(surface));
+    return !(frame::alpha_at(*test_.frame, id, crossing.b, crossing.c) < surface.alpha_cutoff);
   }
 
   const ExactShadowTest& test_;
   const SurfaceSamples& samples_;
   std::span<std::uint16_t> lit_;
+  std::vector<PaneCrossing>* panes_;
   SampleView view_;
   alignas(64) std::array<float, kGroupSize> w_, near_;  // of the group being placed
   RoughTriangles rough_;
 };
 
-void keep_lit(const ExactShadowTest& test, const SurfaceSamples& samples, std::span<std::uint16_t> lit) {
+void Run(const ExactShadowTest& test, const SurfaceSamples& samples, std::span<std::uint16_t> lit,
+         std::vector<PaneCrossing>* panes) {
   if (test.tree->is_empty()) return;
   if (test.light.is_parallel) {
-    BatchTest<true>(test, samples, lit).Run();
+    BatchTest<true>(test, samples, lit, panes).Run();
   } else {
-    BatchTest<false>(test, samples, lit).Run();
+    BatchTest<false>(test, samples, lit, panes).Run();
   }
+}
+
+void keep_lit(const ExactShadowTest& test, const SurfaceSamples& samples, std::span<std::uint16_t> lit) {
+  Run(test, samples, lit, nullptr);
+}
+
+void find_panes(const ExactShadowTest& test, const SurfaceSamples& samples,
+                std::span<const std::uint16_t> wanted, std::vector<PaneCrossing>& crossings) {
+  std::array<std::uint16_t, kMaxGroups> lit{};
+  std::copy(wanted.begin(), wanted.end(), lit.begin());
+  Run(test, samples, std::span(lit).first(wanted.size()), &crossings);
 }
 
 }  // namespace laterna::shadow::HWY_NAMESPACE
@@ -958,5 +983,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace laterna::shadow {
 LATERNA_KERNEL_TABLE(keep_lit)
+LATERNA_KERNEL_TABLE(find_panes)
 }  // namespace laterna::shadow
 #endif

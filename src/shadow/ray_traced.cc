@@ -8,14 +8,15 @@
 
 namespace laterna::shadow {
 
-struct RayTracedShadow::Ray {
+namespace {
+
+struct Way {
   glm::vec3 direction_ws;
   float length;
 };
 
 // Casters nearer to the light than its near plane do not count, as in its shadow map.
-RayTracedShadow::Ray RayTracedShadow::ray_to_light(const glm::dvec3& position_ws) const {
-  const frame::PlacedLight& placed = *planned_.placed;
+Way way_to_light(const frame::PlacedLight& placed, const glm::dvec3& position_ws) {
   const Light& light = *placed.light;
   const bool is_parallel = light.type == LightType::directional ||
                            (light.type == LightType::projector && placed.view.projection.is_orthographic);
@@ -38,21 +39,48 @@ RayTracedShadow::Ray RayTracedShadow::ray_to_light(const glm::dvec3& position_ws
   return {glm::vec3(to_light / distance), static_cast<float>(distance * (1 - near_share))};
 }
 
+// Calls `use(i)` for every sample named by `wanted`.
+template <class Use>
+void for_each(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted, Use use) {
+  for (std::size_t group = 0; group < samples.group_count; ++group) {
+    for (unsigned mask = wanted[group]; mask != 0; mask &= mask - 1) {
+      use(group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask)));
+    }
+  }
+}
+
+}  // namespace
+
+RaysToLight::Ray RaysToLight::from(const SurfaceSamples& samples, std::size_t i) const {
+  const glm::vec3 position(samples.x_ws[i], samples.y_ws[i], samples.z_ws[i]);
+  const Way way = way_to_light(*planned_.placed, glm::dvec3(position));
+  return {position, way.direction_ws, nearest_blocker(samples, i), way.length, samples.id[i]};
+}
+
 double RayTracedShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                                      Arrival& arrival) const {
   arrival.is_tinted = false;
-  for (std::size_t group = 0; group < samples.group_count; ++group) {
-    for (unsigned mask = wanted[group]; mask != 0; mask &= mask - 1) {
-      const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
-      const glm::vec3 position(samples.x_ws[i], samples.y_ws[i], samples.z_ws[i]);
-      const Ray ray = ray_to_light(glm::dvec3(position));
-      const float near = nearest_blocker(samples, i);
-      const bool is_blocked = ray.length > near &&
-                              scene_->is_blocked(position, ray.direction_ws, near, ray.length, samples.id[i]);
-      arrival.alpha[i] = is_blocked ? 0.0F : 1.0F;
-    }
-  }
+  for_each(samples, wanted, [&](std::size_t i) {
+    const RaysToLight::Ray ray = rays_.from(samples, i);
+    const bool is_blocked = ray.far > ray.near && rays_.scene().is_blocked(ray.origin_ws, ray.direction_ws,
+                                                                           ray.near, ray.far, ray.own);
+    arrival.alpha[i] = is_blocked ? 0.0F : 1.0F;
+  });
   return 0;
+}
+
+void RayTracedPanes::find(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+                          std::vector<PaneCrossing>& crossings) const {
+  std::vector<trace::RayScene::Pane> panes;
+  for_each(samples, wanted, [&](std::size_t i) {
+    const RaysToLight::Ray ray = rays_.from(samples, i);
+    if (!(ray.far > ray.near)) return;
+    panes.clear();
+    rays_.scene().find_panes(ray.origin_ws, ray.direction_ws, ray.near, ray.far, ray.own, panes);
+    for (const trace::RayScene::Pane& pane : panes) {
+      crossings.push_back({static_cast<std::uint32_t>(i), pane.id, pane.b, pane.c});
+    }
+  });
 }
 
 }  // namespace laterna::shadow

@@ -4,24 +4,53 @@
 #include <memory>
 
 #include "light/light_plan.h"
+#include "shadow/panes.h"
 #include "shadow/shadow_technique.h"
 #include "trace/ray_scene.h"
 
 namespace laterna::shadow {
 
+/// From samples to one light.
+class RaysToLight {
+ public:
+  RaysToLight(const light::PlannedLight& planned, std::shared_ptr<const trace::RayScene> scene)
+      : planned_(planned), scene_(std::move(scene)) {}
+
+  struct Ray {
+    glm::vec3 origin_ws, direction_ws;
+    float near, far;
+    TriangleId own;
+  };
+  /// Empty (far below near) where there is nothing between the sample and the light's near plane.
+  [[nodiscard]] Ray from(const SurfaceSamples& samples, std::size_t i) const;
+  [[nodiscard]] const trace::RayScene& scene() const { return *scene_; }
+
+ private:
+  const light::PlannedLight& planned_;
+  std::shared_ptr<const trace::RayScene> scene_;
+};
+
 class RayTracedShadow final : public ShadowTechnique {
  public:
   RayTracedShadow(const light::PlannedLight& planned, std::shared_ptr<const trace::RayScene> scene)
-      : planned_(planned), scene_(std::move(scene)) {}
+      : rays_(planned, std::move(scene)) {}
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                       Arrival& arrival) const override;
 
  private:
-  struct Ray;
-  [[nodiscard]] Ray ray_to_light(const glm::dvec3& position_ws) const;
+  RaysToLight rays_;
+};
 
-  const light::PlannedLight& planned_;
-  std::shared_ptr<const trace::RayScene> scene_;
+/// The panes in the way, by rays.
+class RayTracedPanes final : public PaneFinder {
+ public:
+  RayTracedPanes(const light::PlannedLight& planned, std::shared_ptr<const trace::RayScene> scene)
+      : rays_(planned, std::move(scene)) {}
+  void find(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
+            std::vector<PaneCrossing>& crossings) const override;
+
+ private:
+  RaysToLight rays_;
 };
 
 }  // namespace laterna::shadow

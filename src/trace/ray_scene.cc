@@ -2,8 +2,9 @@
 
 #include <embree3/rtcore.h>
 
-#include <array>
 #include <limits>
+#include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "frame/surface_alpha.h"
@@ -11,84 +12,119 @@
 namespace laterna::trace {
 namespace {
 
-// Embree hands its context to filters; ours says which triangle the ray leaves.
+// Embree hands its context to filters; ours says which triangle the ray leaves, and where panes are noted.
 struct Context {
   RTCIntersectContext embree;
   TriangleId own;
+  std::vector<RayScene::Pane>* panes;
 };
 
-}  // namespace
-
-struct RayScene::Implementation {
-  explicit Implementation(const frame::Frame& f)
-      : frame(f), device(rtcNewDevice("isa=sse4.2")), scene(rtcNewScene(device)) {
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-    add_triangles();
-    rtcCommitScene(scene);
+// Some of a frame's triangles as Embree sees them.
+class EmbreeScene {
+ public:
+  EmbreeScene(RTCDevice device, const frame::Frame& frame, bool blended)
+      : frame_(frame), blended_(blended), scene_(rtcNewScene(device)) {
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+    add_triangles(device);
+    rtcCommitScene(scene_);
   }
-  ~Implementation() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
-  }
-  Implementation(const Implementation&) = delete;
-  Implementation& operator=(const Implementation&) = delete;
+  ~EmbreeScene() { rtcReleaseScene(scene_); }
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  void add_triangles() {
-    const std::size_t vertex_count = frame.x_ws.size();
+  // Whether anything stops the ray. Panes are noted and stop nothing.
+  [[nodiscard]] bool stops(RTCRay& ray, TriangleId own, std::vector<RayScene::Pane>* panes) const {
+    Context context;
+    rtcInitIntersectContext(&context.embree);
+    context.own = own;
+    context.panes = panes;
+    rtcOccluded1(scene_, &context.embree, &ray);
+    return ray.tfar == -std::numeric_limits<float>::infinity();
+  }
+
+ private:
+  void add_triangles(RTCDevice device) {
+    const std::size_t vertex_count = frame_.x_ws.size();
     std::vector<std::uint32_t> indices;
-    for (std::uint32_t c = 0; c < frame.clusters.size(); ++c) {
-      const Cluster& cluster = frame.clusters[c];
-      if ((cluster.flags & kCastsShadow) == 0) continue;
+    for (std::uint32_t c = 0; c < frame_.clusters.size(); ++c) {
+      const Cluster& cluster = frame_.clusters[c];
+      if ((cluster.flags & kCastsShadow) == 0 || ((cluster.flags & kAlphaBlend) != 0) != blended_) continue;
       for (std::uint32_t t = 0; t < cluster.triangle_count; ++t) {
         const TriangleId id = c << kTriangleBits | t;
-        const std::uint32_t packed = frame.corners[id];
+        const std::uint32_t packed = frame_.corners[id];
         for (unsigned k = 0; k < 3; ++k) indices.push_back(cluster.first_vertex + (packed >> (8 * k) & 255U));
-        ids.push_back(id);
+        ids_.push_back(id);
       }
     }
-    if (ids.empty()) return;
+    if (ids_.empty()) return;
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertex_count));
     auto* corners = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), ids.size()));
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), ids_.size()));
     for (std::size_t i = 0; i < vertex_count; ++i) {
-      vertices[3 * i] = frame.x_ws[i];
-      vertices[3 * i + 1] = frame.y_ws[i];
-      vertices[3 * i + 2] = frame.z_ws[i];
+      vertices[3 * i] = frame_.x_ws[i];
+      vertices[3 * i + 1] = frame_.y_ws[i];
+      vertices[3 * i + 2] = frame_.z_ws[i];
     }
     std::copy(indices.begin(), indices.end(), corners);
     rtcSetGeometryUserData(geometry, this);
     rtcSetGeometryOccludedFilterFunction(geometry, &filter_hits);
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
+    rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
   }
 
-  // Takes back hits on the ray's own triangle and in the holes of cut-outs.
+  // Takes back hits on the ray's own triangle, in the holes of cut-outs, and on panes.
   static void filter_hits(const RTCFilterFunctionNArguments* arguments) {
-    const auto& self = *static_cast<const Implementation*>(arguments->geometryUserPtr);
-    const TriangleId own = reinterpret_cast<const Context*>(arguments->context)->own;
+    const auto& self = *static_cast<const EmbreeScene*>(arguments->geometryUserPtr);
+    const auto& context = *reinterpret_cast<const Context*>(arguments->context);
     for (unsigned i = 0; i < arguments->N; ++i) {
       if (arguments->valid[i] == 0) continue;
-      const TriangleId id = self.ids[RTCHitN_primID(arguments->hit, arguments->N, i)];
+      const TriangleId id = self.ids_[RTCHitN_primID(arguments->hit, arguments->N, i)];
       const float u = RTCHitN_u(arguments->hit, arguments->N, i);
       const float v = RTCHitN_v(arguments->hit, arguments->N, i);
-      if (id == own || self.is_hole(id, u, v)) arguments->valid[i] = 0;
+      if (self.blended_ && id != context.own) context.panes->push_back({id, u, v});
+      if (self.blended_ || id == context.own || self.is_hole(id, u, v)) arguments->valid[i] = 0;
     }
   }
 
   [[nodiscard]] bool is_hole(TriangleId id, float b, float c) const {
-    const Cluster& cluster = frame.clusters[cluster_of(id)];
-    if ((cluster.flags & (kAlphaMask | kAlphaBlend)) == 0) return false;
-    return frame::alpha_at(frame, id, b, c) < frame::cutoff_of(frame.surfaces[cluster.material]);
+    const Cluster& cluster = frame_.clusters[cluster_of(id)];
+    if ((cluster.flags & kAlphaMask) == 0) return false;
+    return frame::alpha_at(frame_, id, b, c) < frame_.surfaces[cluster.material].alpha_cutoff;
   }
 
-  const frame::Frame& frame;
-  RTCDevice device;
-  RTCScene scene;
-  std::vector<TriangleId> ids;  // by Embree's primitive
+  const frame::Frame& frame_;
+  bool blended_;
+  RTCScene scene_;
+  std::vector<TriangleId> ids_;  // by Embree's primitive
+};
+
+RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float near, float far) {
+  RTCRay ray{};
+  ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
+  ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
+  ray.tnear = near;
+  ray.tfar = far;
+  ray.mask = 0xFFFFFFFFU;
+  return ray;
+}
+
+}  // namespace
+
+struct RayScene::Implementation {
+  explicit Implementation(const frame::Frame& frame)
+      : device(rtcNewDevice("isa=sse4.2")),
+        opaque(device.get(), frame, false),
+        blended(device.get(), frame, true) {}
+
+  struct Release {
+    void operator()(RTCDevice d) const { rtcReleaseDevice(d); }
+  };
+  std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device;
+  EmbreeScene opaque, blended;
 };
 
 RayScene::RayScene(const frame::Frame& frame) : implementation_(std::make_unique<Implementation>(frame)) {}
@@ -96,34 +132,14 @@ RayScene::~RayScene() = default;
 
 bool RayScene::is_blocked(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near, float far,
                           TriangleId own) const {
-  Context context;
-  rtcInitIntersectContext(&context.embree);
-  context.own = own;
-  RTCRay ray{};
-  ray.org_x = origin_ws.x, ray.org_y = origin_ws.y, ray.org_z = origin_ws.z;
-  ray.dir_x = direction_ws.x, ray.dir_y = direction_ws.y, ray.dir_z = direction_ws.z;
-  ray.tnear = near;
-  ray.tfar = far;
-  ray.mask = 0xFFFFFFFFU;
-  rtcOccluded1(implementation_->scene, &context.embree, &ray);
-  return ray.tfar == -std::numeric_limits<float>::infinity();
+  RTCRay ray = make_ray(origin_ws, direction_ws, near, far);
+  return implementation_->opaque.stops(ray, own, nullptr);
 }
 
-RayScene::Hit RayScene::nearest(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near,
-                                float far) const {
-  Context context;
-  rtcInitIntersectContext(&context.embree);
-  context.own = kNoTriangle;
-  RTCRayHit hit{};
-  hit.ray.org_x = origin_ws.x, hit.ray.org_y = origin_ws.y, hit.ray.org_z = origin_ws.z;
-  hit.ray.dir_x = direction_ws.x, hit.ray.dir_y = direction_ws.y, hit.ray.dir_z = direction_ws.z;
-  hit.ray.tnear = near;
-  hit.ray.tfar = far;
-  hit.ray.mask = 0xFFFFFFFFU;
-  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(implementation_->scene, &context.embree, &hit);
-  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {implementation_->ids[hit.hit.primID], hit.ray.tfar};
+void RayScene::find_panes(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near, float far,
+                          TriangleId own, std::vector<Pane>& panes) const {
+  RTCRay ray = make_ray(origin_ws, direction_ws, near, far);
+  static_cast<void>(implementation_->blended.stops(ray, own, &panes));
 }
 
 }  // namespace laterna::trace

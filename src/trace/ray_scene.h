@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
+#include <vector>
 
 #include "frame/frame.h"
 
@@ -18,19 +19,20 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  /// Whether anything that casts shadows lies on origin + t direction, t in [near, far]. Triangle `own`, on which the
-  /// ray starts, is left out; cut-out and blended surfaces block where their alpha at full texture size reaches the
-  /// cutoff. Const calls may come from several threads.
+  /// Whether anything opaque that casts shadows lies on origin + t direction, t in [near, far]. Triangle `own`, on which
+  /// the ray starts, is left out; cut-outs block where their alpha at full texture size reaches the cutoff. Const calls
+  /// may come from several threads.
   [[nodiscard]] bool is_blocked(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near,
                                 float far, TriangleId own) const;
 
-  /// Nearest hit, or kNoTriangle.
-  struct Hit {
-    TriangleId id = kNoTriangle;
-    float t = 0;
+  /// Where the ray meets blended surfaces that cast shadows, on the same terms: appended in any order. `b` and `c`: weights
+  /// of the second and third corner.
+  struct Pane {
+    TriangleId id;
+    float b, c;
   };
-  [[nodiscard]] Hit nearest(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near,
-                            float far) const;
+  void find_panes(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near, float far,
+                  TriangleId own, std::vector<Pane>& panes) const;
 
  private:
   struct Implementation;

@@ -147,8 +147,8 @@ TEST_P(SurfaceAlphaOnEverySet, HolesAreWhereAlphaAtOnePointIsBelowTheCutoff) {
   std::array<int, 2> seen = {0, 0};
   for (std::size_t i = 0; i < p.ids.size(); ++i) {
     const frame::Surface& surface = surface_of(owned.frame, p.ids[i]);
-    const bool expected = surface.alpha_mode != AlphaMode::opaque &&
-                          frame::alpha_at(owned.frame, p.ids[i], p.b[i], p.c[i]) < frame::cutoff_of(surface);
+    const bool expected = surface.alpha_mode == AlphaMode::mask &&
+                          frame::alpha_at(owned.frame, p.ids[i], p.b[i], p.c[i]) < surface.alpha_cutoff;
     ASSERT_EQ(is_hole[i], expected ? 1.0F : 0.0F) << "point " << i << " of triangle " << p.ids[i];
     ++seen[expected ? 1 : 0];
   }

@@ -48,7 +48,7 @@ ShadowJudge::ShadowJudge(const frame::Frame& frame, const frame::PlacedLight& pl
     near_ = placed.view.projection.near;
   for (std::uint32_t c = 0; c < frame.clusters.size(); ++c) {
     const Cluster& cluster = frame.clusters[c];
-    if ((cluster.flags & kCastsShadow) == 0) continue;
+    if ((cluster.flags & kCastsShadow) == 0 || (cluster.flags & kAlphaBlend) != 0) continue;
     for (std::uint32_t t = 0; t < cluster.triangle_count; ++t) {
       Caster caster = {c << kTriangleBits | t, {}};
       for (std::uint32_t k = 0; k < 3; ++k) {
@@ -62,9 +62,9 @@ ShadowJudge::ShadowJudge(const frame::Frame& frame, const frame::PlacedLight& pl
 
 Judgement ShadowJudge::judge_alpha(TriangleId id, double b, double c, double tolerance) const {
   const Cluster& cluster = frame_.clusters[cluster_of(id)];
-  if ((cluster.flags & (kAlphaMask | kAlphaBlend)) == 0) return Judgement::dark;
+  if ((cluster.flags & kAlphaMask) == 0) return Judgement::dark;
   const float alpha = frame::alpha_at(frame_, id, static_cast<float>(b), static_cast<float>(c));
-  const float cutoff = frame::cutoff_of(frame_.surfaces[cluster.material]);
+  const float cutoff = frame_.surfaces[cluster.material].alpha_cutoff;
   if (std::abs(alpha - cutoff) < tolerance) return Judgement::tie;
   return alpha < cutoff ? Judgement::lit : Judgement::dark;
 }
