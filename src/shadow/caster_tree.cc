@@ -191,7 +191,8 @@ class CasterTree::Builder {
       ++counts[bin];
     }
     const auto cost = [](const Box& box, std::size_t count) {
-      return box.area() * static_cast<double>((count + kTreeWidth - 1) / kTreeWidth);
+      const std::size_t packets = (count + kTreeWidth - 1) / kTreeWidth;
+      return box.area() * static_cast<double>(packets);
     };
     std::array<double, kBins> right_cost{};
     Box right = Box::nothing();

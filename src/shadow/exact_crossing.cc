@@ -25,7 +25,7 @@ bool is_left(double side, const glm::vec3& a, const glm::vec3& b) {
 }  // namespace
 
 LightRays::LightRays(const frame::PlacedLight& placed)
-    : position_ws(placed.pose.position_ws), forward_ws(placed.pose.forward_ws()), has_near(false), near(0) {
+    : position_ws(placed.pose.position_ws), forward_ws(placed.pose.forward_ws()) {
   const Light& light = *placed.light;
   is_parallel = light.type == LightType::directional ||
                 (light.type == LightType::projector && placed.view.projection.is_orthographic);

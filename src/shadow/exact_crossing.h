@@ -17,8 +17,8 @@ struct LightRays {
   glm::dvec3 position_ws;  ///< of the light; of a parallel one, any point of its near plane's view
   glm::dvec3 forward_ws;   ///< unit: its axis; of a parallel light, the direction in which it shines
   /// Casters nearer than this along the axis do not count; where there is no such plane it does not either.
-  bool has_near;
-  double near;
+  bool has_near = false;
+  double near = 0;
 };
 
 struct CornersOfTriangle {

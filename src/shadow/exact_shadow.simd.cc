@@ -411,20 +411,13 @@ HWY_INLINE Verdict TestSamples(const SampleView& view, std::size_t first, const 
 // Packets that darkened what a thread asked about just before: its next samples are probably their neighbours, and what is
 // dark soon needs no more looking. A guess only, which cannot be seen in any answer.
 struct RecentPackets {
-  static constexpr std::size_t kMost = 4;
-  const ExactShadowTest* test;
+  static constexpr std::size_t kMost = 4, kLights = 16;
   std::array<std::uint32_t, kMost> packets;
 
-  static RecentPackets& of(const ExactShadowTest& test) {
-    thread_local RecentPackets recent[kLights];
-    RecentPackets& found = recent[test.number % kLights];
-    if (found.test != &test) {
-      found.test = &test;
-      found.packets.fill(0xFFFFFFFFU);
-    }
-    return found;
+  static RecentPackets& of(std::size_t light) {
+    thread_local std::array<RecentPackets, kLights> recent{};
+    return recent[light % kLights];
   }
-  static constexpr std::size_t kLights = 16;
 
   [[nodiscard]] bool contains(std::uint32_t index) const {
     return std::find(packets.begin(), packets.end(), index) != packets.end();
@@ -803,7 +796,7 @@ class BatchTest {
 
   void Stream(Bundle& bundle) {
     const Shaft shaft = ShaftOf(bundle);
-    RecentPackets& recent = RecentPackets::of(test_);
+    RecentPackets& recent = RecentPackets::of(test_.number);
     const RecentPackets first = recent;
     for (const std::uint32_t index : first.packets) {
       // Through panes nothing is dark soon, and each is looked for once.

@@ -222,6 +222,7 @@ TEST(Rig, Shadows) {
   EXPECT_EQ(shadow_of("true"), ShadowSettings{});
   EXPECT_EQ(shadow_of("{}"), ShadowSettings{});
   EXPECT_EQ(shadow_of("false").technique, ShadowTechnique::none);
+  EXPECT_EQ(shadow_of(R"({"technique": "exact"})").technique, ShadowTechnique::exact);
   const ShadowSettings full =
       shadow_of(R"({"technique": "raytraced", "resolution": 16384, "filter": "percentage_closer", "kernel": 9,
       "constant_bias": 0.01, "slope_bias": 1.5, "caster_faces": "back_only", "outside": "shadowed"})");
