@@ -3,6 +3,7 @@
 #include "shadow/exact_shadow.h"
 #include "shadow/ray_traced.h"
 #include "shadow/shadow_map.h"
+#include "shadow/shadow_volume.h"
 
 namespace laterna::render {
 
@@ -29,6 +30,8 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light:
   switch (planned.technique) {
     case ShadowTechnique::map:
       return make_map(planned, index);
+    case ShadowTechnique::volume:
+      return make_volume(planned);
     case ShadowTechnique::exact:
       return make_exact(planned);
     case ShadowTechnique::raytraced:
@@ -66,6 +69,13 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_exact(const light::
   has_reported_tree_ = true;
   return std::make_unique<shadow::ExactShadow>(planned, context_.frame, std::move(tree),
                                                context_.instruction_set);
+}
+
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_volume(const light::PlannedLight& planned) {
+  auto volume = std::make_unique<shadow::ShadowVolume>(planned, context_.frame, context_.camera,
+                                                       context_.pool, context_.instruction_set);
+  report_memory(planned, 0, volume->memory_bytes());
+  return volume;
 }
 
 void ShadowCasting::report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes) {

@@ -47,6 +47,7 @@ class ShadowCasting {
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_map(const light::PlannedLight& planned,
                                                                   std::size_t index);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_exact(const light::PlannedLight& planned);
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_volume(const light::PlannedLight& planned);
   void report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes);
 
   CastingContext context_;

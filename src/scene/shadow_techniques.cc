@@ -5,10 +5,12 @@
 namespace laterna {
 namespace {
 
-constexpr std::array<TechniqueDescription, 4> kTechniques = {{
+constexpr std::array<TechniqueDescription, 5> kTechniques = {{
     {ShadowTechnique::none, "none", "light passes through everything"},
     {ShadowTechnique::map, "map",
      "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
+    {ShadowTechnique::volume, "volume",
+     "shadow volumes counted along each line of sight: slow, exact, a second reference"},
     {ShadowTechnique::exact, "exact",
      "hard shadows to the last bit: every sample against every triangle in its way, without a map"},
     {ShadowTechnique::raytraced, "raytraced",
