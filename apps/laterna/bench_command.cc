@@ -7,8 +7,7 @@
 
 #include "frame_costs.h"
 #include "outcome.h"
-#include "scene_options.h"
-#include "workload.h"
+#include "subject.h"
 
 namespace laterna::app {
 namespace {
@@ -16,35 +15,11 @@ namespace {
 using Json = nlohmann::json;
 
 struct Options {
-  SceneOptions scene;
-  ViewOptions view;
-  std::string workload, name = "W1", scenes, picture, shadows = "map";
+  SubjectOptions subject;
+  std::string picture, shadows = "map";
   FrameSeries series;
   bool keep_maps = false, json = false;
 };
-
-Result<Subject> prepare_workload(const Options& options) {
-  const Result<RendererOptions> machine = options.scene.renderer_options();
-  if (!machine) return tl::unexpected(machine.error());
-  Result<Workload> workload = load_workload(options.workload, options.name, options.scenes);
-  if (!workload) return tl::unexpected(workload.error());
-  Result<Renderer> renderer = Renderer::create(std::move(workload->scene), *machine);
-  if (!renderer) return tl::unexpected(renderer.error());
-  return Subject{std::move(*renderer), workload->view, workload->settings, workload->depth_light};
-}
-
-Result<Subject> prepare_scene(const Options& options) {
-  const Result<ViewOptions::Size> size = options.view.parse_size();
-  if (!size) return tl::unexpected(size.error());
-  Result<Renderer> renderer = options.scene.make_renderer();
-  if (!renderer) return tl::unexpected(renderer.error());
-  const Result<View> view = options.view.find(*renderer, *size);
-  if (!view) return tl::unexpected(view.error());
-  RenderSettings settings;
-  settings.width = size->width;
-  settings.height = size->height;
-  return Subject{std::move(*renderer), *view, settings, {}};
-}
 
 struct Phase {
   const char* name;
@@ -122,7 +97,7 @@ void print_table(const FrameCosts& costs, const Subject& subject) {
 }
 
 std::string fault_of(const Options& options) {
-  if (options.workload.empty() && options.scene.files.empty()) return "bench needs a SCENE or --workload";
+  if (std::string fault = options.subject.find_fault("bench"); !fault.empty()) return fault;
   if (options.series.warm_up < 0) return "--warm-up must be at least 0";
   if (options.picture == "-") return "bench prints to standard output: give --png a file";
   if (options.series.frames < 1) return "--frames must be at least 1";
@@ -131,7 +106,7 @@ std::string fault_of(const Options& options) {
 
 int run_bench(const Options& options) {
   if (const std::string fault = fault_of(options); !fault.empty()) return report(bad_option(fault));
-  Result<Subject> subject = options.workload.empty() ? prepare_scene(options) : prepare_workload(options);
+  Result<Subject> subject = options.subject.prepare();
   if (!subject) return report(subject.error());
   subject->settings.keep_shadow_maps = options.keep_maps;
   for (const TechniqueDescription& t : list_techniques()) {
@@ -152,16 +127,7 @@ int run_bench(const Options& options) {
 void declare_bench(CLI::App& app, Run& run) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("bench", "milliseconds per stage, median of several frames");
-  options->scene.declare_scene(*command);
-  command->get_option("SCENE")->required(false);
-  options->view.declare(*command);
-  command->add_option("--workload", options->workload, "JSON file of named workloads instead of a SCENE");
-  command
-      ->add_option("--name", options->name,
-                   "which workload; W4.0: the first of a list, here of depth maps alone")
-      ->capture_default_str();
-  command->add_option("--scenes", options->scenes,
-                      "folder of the workload's models; default: scenes beside the file");
+  options->subject.declare(*command);
   command->add_option("--shadows", options->shadows, "technique for lights that name none")
       ->check(CLI::IsMember(technique_names()))
       ->capture_default_str();
@@ -171,7 +137,7 @@ void declare_bench(CLI::App& app, Run& run) {
   command->add_flag("--pose", options->series.poses_anew,
                     "carry geometry to world space before each frame, as when something moves");
   command->add_option("--png", options->picture, "write the last frame");
-  options->scene.declare_machine(*command);
+  options->subject.scene.declare_machine(*command);
   command->add_flag("--json", options->json, "as JSON");
   command->footer("\nExample:\n  laterna bench scene.glb --size 1920x1080 --frames 15 --threads 2\n");
   command->callback([options, &run] { run = [options] { return run_bench(*options); }; });

@@ -1,0 +1,16 @@
+// Light where a caster touches its receiver: shadows that come off their objects.
+#pragma once
+
+#include "measure/lit_pixels.h"
+#include "measure/shadow_boundaries.h"
+
+namespace laterna::measure {
+
+/// The largest distance, in texels, from a place where two surfaces touch at an angle, one of them darkening the other, over
+/// falsely lit pixels without a break. Pixels within kEdgeTexels of a true boundary do not count: there every map is a
+/// little off, touching or not. So shadows narrower than twice that are not looked at.
+double largest_contact_gap(const LitPixels& pixels, const ShadowBoundaries& boundaries, const Mask& truth,
+                           const Mask& mask);
+inline constexpr double kEdgeTexels = 1.5;
+
+}  // namespace laterna::measure

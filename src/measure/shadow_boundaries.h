@@ -1,0 +1,35 @@
+// Where true shadows begin, and how far a pixel lies from there, in texels of the light's shadow map.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "measure/lit_pixels.h"
+
+namespace laterna::measure {
+
+/// The boundaries that a picture shows: halfway between neighbouring pixels of one surface of which one is lit.
+class ShadowBoundaries {
+ public:
+  ShadowBoundaries(const LitPixels& pixels, const Mask& truth);
+  /// Texels from the pixel to the nearest boundary that its surface, going on as it is or twice as steep, would meet;
+  /// infinity beyond `reach`.
+  [[nodiscard]] double distance_from(std::size_t pixel, double reach) const;
+
+ private:
+  struct Boundary {
+    std::uint64_t cell = 0;
+    glm::vec2 texel{0};
+    float depth = 0;
+  };
+  void add(std::size_t a, std::size_t b);
+  const LitPixels& pixels_;
+  std::vector<Boundary> boundaries_;  // sorted by cell
+};
+
+/// Whether a lit pixel has a true shadow within `reach` texels on its plane, found by rays: the picture does not show what
+/// lies beyond its rim or behind something. What stands within two texels' width of the plane does not count, nor does
+/// what the surface itself, where it bends, puts in the way.
+bool has_shadow_beside(const LitPixels& pixels, std::size_t pixel, double reach);
+
+}  // namespace laterna::measure
