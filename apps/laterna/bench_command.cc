@@ -8,6 +8,8 @@
 #include "frame_costs.h"
 #include "outcome.h"
 #include "subject.h"
+#include "technique_names.h"
+#include "technique_report.h"
 
 namespace laterna::app {
 namespace {
@@ -16,7 +18,7 @@ using Json = nlohmann::json;
 
 struct Options {
   SubjectOptions subject;
-  std::string picture, shadows = "map";
+  std::string picture, shadows = "map", techniques;
   FrameSeries series;
   bool keep_maps = false, json = false;
 };
@@ -98,16 +100,40 @@ void print_table(const FrameCosts& costs, const Subject& subject) {
 
 std::string fault_of(const Options& options) {
   if (std::string fault = options.subject.find_fault("bench"); !fault.empty()) return fault;
+  if (!options.techniques.empty() && (options.keep_maps || options.series.poses_anew || !options.picture.empty())) {
+    return "--techniques excludes --cached, --pose and --png";
+  }
   if (options.series.warm_up < 0) return "--warm-up must be at least 0";
   if (options.picture == "-") return "bench prints to standard output: give --png a file";
   if (options.series.frames < 1) return "--frames must be at least 1";
   return {};
 }
 
+// Techniques beside each other, and projecting beside texturing.
+int compare(const Options& options, const Subject& subject, const std::vector<ShadowTechnique>& techniques) {
+  if (!subject.depth_light.empty()) {
+    return report(bad_option("--techniques: the workload draws a depth map alone, which has no shadows"));
+  }
+  const Result<TechniqueComparison> comparison = compare_techniques(subject, options.series, techniques);
+  if (!comparison) return report(comparison.error());
+  const Result<ProjectionCost> projection = measure_projection(subject, options.series);
+  if (!projection) return report(projection.error());
+  if (options.json) {
+    fmt::print("{}\n", json_of(*comparison, *projection).dump(2));
+  } else {
+    print_table(*comparison, *projection);
+  }
+  return kOk;
+}
+
 int run_bench(const Options& options) {
   if (const std::string fault = fault_of(options); !fault.empty()) return report(bad_option(fault));
+  Result<std::vector<ShadowTechnique>> techniques;
+  if (!options.techniques.empty()) techniques = parse_techniques(options.techniques);
+  if (!techniques) return report(techniques.error());
   Result<Subject> subject = options.subject.prepare();
   if (!subject) return report(subject.error());
+  if (!techniques->empty()) return compare(options, *subject, *techniques);
   subject->settings.keep_shadow_maps = options.keep_maps;
   for (const TechniqueDescription& t : list_techniques()) {
     if (t.name == options.shadows) subject->settings.shadows = t.technique;
@@ -136,10 +162,14 @@ void declare_bench(CLI::App& app, Run& run) {
   command->add_flag("--cached", options->keep_maps, "keep shadow maps from frame to frame");
   command->add_flag("--pose", options->series.poses_anew,
                     "carry geometry to world space before each frame, as when something moves");
+  command->add_option("--techniques", options->techniques,
+                      "all, or names with commas between: what each costs beside how right it is, which to take, "
+                      "and what projecting costs beside texturing");
   command->add_option("--png", options->picture, "write the last frame");
   options->subject.scene.declare_machine(*command);
   command->add_flag("--json", options->json, "as JSON");
-  command->footer("\nExample:\n  laterna bench scene.glb --size 1920x1080 --frames 15 --threads 2\n");
+  command->footer("\nExample:\n  laterna bench scene.glb --size 1920x1080 --frames 15 --threads 2\n"
+                  "  laterna bench scene.glb --techniques all\n");
   command->callback([options, &run] { run = [options] { return run_bench(*options); }; });
 }
 
