@@ -54,8 +54,8 @@ void print_table(const AccuracyReport& report) {
   for (const ShadowAccuracy& m : report.measured) width = std::max(width, m.light.size());
   fmt::print("{:<11} {:<{}} {:>10} {:>10} {:>10} {:>9} {:>8} {:>8} {:>8} {:>8}\n", "", "", width, "false lit",
              "false dark", "acne", "gap", "edge px", "edge px", "", "");
-  fmt::print("{:<11} {:<{}} {:>10} {:>10} {:>10} {:>9} {:>8} {:>8} {:>8} {:>8}\n", "technique", "light", width,
-             "%", "%", "%", "texels", "median", "99 %", "ms", "MB");
+  fmt::print("{:<11} {:<{}} {:>10} {:>10} {:>10} {:>9} {:>8} {:>8} {:>8} {:>8}\n", "technique", "light",
+             width, "%", "%", "%", "texels", "median", "99 %", "ms", "MB");
   for (const ShadowAccuracy& m : report.measured) {
     fmt::print("{:<11} {:<{}} {:>10.4f} {:>10.4f} {:>10.4f} {:>9.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
                name_of(m.technique), m.light, width, 100 * m.false_lit, 100 * m.false_dark, 100 * m.acne,
@@ -69,8 +69,8 @@ void print_notes(const AccuracyReport& report) {
     fmt::print(stderr, "laterna: note: light \"{}\" falls on nothing that the picture shows\n", m.light);
   }
   for (const SkippedAccuracy& skipped : report.skipped) {
-    fmt::print(stderr, "laterna: note: skipped technique \"{}\", light \"{}\": {}\n", name_of(skipped.technique),
-               skipped.light, skipped.reason);
+    fmt::print(stderr, "laterna: note: skipped technique \"{}\", light \"{}\": {}\n",
+               name_of(skipped.technique), skipped.light, skipped.reason);
   }
 }
 
@@ -162,13 +162,16 @@ int run_accuracy(const Options& options) {
 }
 
 constexpr const char* kFooter =
-    "\nShares are of the pixels that face the light within its cone, frame and range; texels are those of the\n"
+    "\nShares are of the pixels that face the light within its cone, frame and range; texels are those of "
+    "the\n"
     "light's shadow map, for every technique. The truth is the technique raytraced.\n"
     "  acne     false shadow farther than 2 texels from any true edge; a part of false dark\n"
     "  gap      the longest stretch of false light that begins where caster and receiver touch\n"
-    "  edge px  from each edge of shadow, or of true shadow, to the nearest of the other, in pixels, 32 at most\n"
+    "  edge px  from each edge of shadow, or of true shadow, to the nearest of the other, in pixels, 32 at "
+    "most\n"
     "  ms, MB   what the shadows of this light alone cost in a frame, maps drawn anew\n"
-    "The difference picture has a row for each light and a column for each technique: the scene in grey, true\n"
+    "The difference picture has a row for each light and a column for each technique: the scene in grey, "
+    "true\n"
     "shadows darker, what does not count darkest; false light yellow, false shadow blue, acne red.\n"
     "--fail takes conditions on the measures of --json; the exit code is 1 where one of them is met, by any\n"
     "technique but none, unless that is asked for by name.\n"
@@ -184,9 +187,10 @@ void declare_accuracy(CLI::App& app, Run& run) {
   options->subject.declare(*command);
   command->add_option("--techniques", options->techniques, "all, or names with commas between")
       ->capture_default_str();
-  command->add_option("--lights", options->lights,
-                      "names with commas between; auto: a sun, a spot and a point light by a fixed rule instead "
-                      "of the scene's own; default: the scene's own, or auto where it has none");
+  command->add_option(
+      "--lights", options->lights,
+      "names with commas between; auto: a sun, a spot and a point light by a fixed rule instead "
+      "of the scene's own; default: the scene's own, or auto where it has none");
   command->add_option("--resolution", options->resolution, "of shadow maps; default: each light's own");
   command
       ->add_option("--subpixels", options->subpixels,

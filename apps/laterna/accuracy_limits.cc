@@ -41,8 +41,9 @@ Result<AccuracyLimit> parse_limit(const std::string& text) {
   const std::string_view all = trimmed(text);
   const std::size_t sign = all.find_first_of("<>");
   const bool is_closed = sign != std::string_view::npos && sign + 1 < all.size() && all[sign + 1] == '=';
-  const std::optional<double> limit =
-      sign == std::string_view::npos ? std::nullopt : number_in(trimmed(all.substr(sign + (is_closed ? 2 : 1))));
+  const std::optional<double> limit = sign == std::string_view::npos
+                                          ? std::nullopt
+                                          : number_in(trimmed(all.substr(sign + (is_closed ? 2 : 1))));
   if (!limit) {
     return tl::unexpected(bad_option(fmt::format(
         "--fail: expected a measure, one of > >= < <=, and a number, such as acne>0, got \"{}\"", text)));

@@ -100,7 +100,8 @@ void print_table(const FrameCosts& costs, const Subject& subject) {
 
 std::string fault_of(const Options& options) {
   if (std::string fault = options.subject.find_fault("bench"); !fault.empty()) return fault;
-  if (!options.techniques.empty() && (options.keep_maps || options.series.poses_anew || !options.picture.empty())) {
+  if (!options.techniques.empty() &&
+      (options.keep_maps || options.series.poses_anew || !options.picture.empty())) {
     return "--techniques excludes --cached, --pose and --png";
   }
   if (options.series.warm_up < 0) return "--warm-up must be at least 0";
@@ -162,14 +163,16 @@ void declare_bench(CLI::App& app, Run& run) {
   command->add_flag("--cached", options->keep_maps, "keep shadow maps from frame to frame");
   command->add_flag("--pose", options->series.poses_anew,
                     "carry geometry to world space before each frame, as when something moves");
-  command->add_option("--techniques", options->techniques,
-                      "all, or names with commas between: what each costs beside how right it is, which to take, "
-                      "and what projecting costs beside texturing");
+  command->add_option(
+      "--techniques", options->techniques,
+      "all, or names with commas between: what each costs beside how right it is, which to take, "
+      "and what projecting costs beside texturing");
   command->add_option("--png", options->picture, "write the last frame");
   options->subject.scene.declare_machine(*command);
   command->add_flag("--json", options->json, "as JSON");
-  command->footer("\nExample:\n  laterna bench scene.glb --size 1920x1080 --frames 15 --threads 2\n"
-                  "  laterna bench scene.glb --techniques all\n");
+  command->footer(
+      "\nExample:\n  laterna bench scene.glb --size 1920x1080 --frames 15 --threads 2\n"
+      "  laterna bench scene.glb --techniques all\n");
   command->callback([options, &run] { run = [options] { return run_bench(*options); }; });
 }
 

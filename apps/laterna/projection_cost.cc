@@ -73,9 +73,8 @@ Scene scene_for(Use use, const Subject& subject) {
 }
 
 Result<ProjectionCost::Rate> rate_of(Use use, const Subject& subject, const FrameSeries& series) {
-  Result<Renderer> renderer =
-      Renderer::create(scene_for(use, subject),
-                       {subject.renderer.threads(), subject.renderer.instruction_set()});
+  Result<Renderer> renderer = Renderer::create(
+      scene_for(use, subject), {subject.renderer.threads(), subject.renderer.instruction_set()});
   if (!renderer) return tl::unexpected(std::move(renderer.error()));
   Subject drawn = {std::move(*renderer), subject.view, subject.settings, {}};
   drawn.settings.shading = ShadingModel::papers;

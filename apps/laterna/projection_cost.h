@@ -7,9 +7,9 @@ namespace laterna::app {
 
 struct ProjectionCost {
   struct Rate {
-    double ms = 0;           ///< a frame, median
-    double mtri_per_s = 0;   ///< triangles considered
-    double mpix_per_s = 0;   ///< of the whole picture
+    double ms = 0;          ///< a frame, median
+    double mtri_per_s = 0;  ///< triangles considered
+    double mpix_per_s = 0;  ///< of the whole picture
   };
   Rate textured, projected;
   [[nodiscard]] double ratio() const { return projected.ms / textured.ms; }

@@ -12,9 +12,7 @@ void SubjectOptions::declare(CLI::App& command) {
   command.get_option("SCENE")->required(false);
   view.declare(command);
   command.add_option("--workload", workload, "JSON file of named workloads instead of a SCENE");
-  command
-      .add_option("--name", name,
-                  "which workload; W4.0: the first of a list, here of depth maps alone")
+  command.add_option("--name", name, "which workload; W4.0: the first of a list, here of depth maps alone")
       ->capture_default_str();
   command.add_option("--scenes", scenes, "folder of the workload's models; default: scenes beside the file");
 }

@@ -17,8 +17,8 @@ Result<Subject> without_own_techniques(const Subject& subject) {
   Scene scene = subject.renderer.scene();
   scene.warnings.clear();
   for (Light& light : scene.lights) light.shadow.technique.reset();
-  Result<Renderer> renderer = Renderer::create(
-      std::move(scene), {subject.renderer.threads(), subject.renderer.instruction_set()});
+  Result<Renderer> renderer =
+      Renderer::create(std::move(scene), {subject.renderer.threads(), subject.renderer.instruction_set()});
   if (!renderer) return tl::unexpected(std::move(renderer.error()));
   return Subject{std::move(*renderer), subject.view, subject.settings, {}};
 }
@@ -30,7 +30,8 @@ double median_over(const std::vector<RenderStatistics>& frames,
   return timing_of(std::move(values)).median;
 }
 
-Result<TechniqueResult> time_technique(Subject& subject, const FrameSeries& series, ShadowTechnique technique) {
+Result<TechniqueResult> time_technique(Subject& subject, const FrameSeries& series,
+                                       ShadowTechnique technique) {
   subject.settings.shadows = technique;
   subject.settings.keep_shadow_maps = false;
   const Result<FrameCosts> costs = draw_series(subject, series);
@@ -74,8 +75,9 @@ std::optional<TechniqueResult> fastest_that(const std::vector<TechniqueResult>& 
 }
 
 std::string described(const TechniqueResult& r) {
-  return fmt::format("{} ({:.1f} ms a frame, {:.0f} MB; edges {:.2f} pixels off on average, {:.3g} % of pixels wrong)",
-                     name_of(r.technique), r.frame_ms, r.mb, r.edge_px_mean, 100 * r.wrong_share);
+  return fmt::format(
+      "{} ({:.1f} ms a frame, {:.0f} MB; edges {:.2f} pixels off on average, {:.3g} % of pixels wrong)",
+      name_of(r.technique), r.frame_ms, r.mb, r.edge_px_mean, 100 * r.wrong_share);
 }
 
 // What must be put up with.
@@ -83,7 +85,8 @@ std::string price_of(const TechniqueResult& r) {
   std::vector<std::string> faults;
   if (r.edge_px_mean >= kSmallEdgeError) faults.emplace_back("edges that are off");
   if (r.acne > 0) faults.emplace_back("acne");
-  if (r.gap_texels >= kSmallGap) faults.push_back(fmt::format("gaps of {:.1f} texels at contacts", r.gap_texels));
+  if (r.gap_texels >= kSmallGap)
+    faults.push_back(fmt::format("gaps of {:.1f} texels at contacts", r.gap_texels));
   return fmt::format("at the price of {}", fmt::join(faults, ", "));
 }
 
@@ -95,11 +98,13 @@ std::string advise(const std::vector<TechniqueResult>& results) {
   });
   const std::optional<TechniqueResult> right =
       fastest_that(results, [](const TechniqueResult& r) { return r.wrong_share == 0; });
-  const std::optional<TechniqueResult> fast = fastest_that(results, [](const TechniqueResult&) { return true; });
+  const std::optional<TechniqueResult> fast =
+      fastest_that(results, [](const TechniqueResult&) { return true; });
   std::vector<std::string> parts;
   if (good) {
-    parts.push_back(fmt::format("{} is the fastest of those with edges under half a pixel off, without acne and gaps",
-                                described(*good)));
+    parts.push_back(
+        fmt::format("{} is the fastest of those with edges under half a pixel off, without acne and gaps",
+                    described(*good)));
   }
   if (right && (!good || right->technique != good->technique)) {
     parts.push_back(fmt::format("{} is the fastest of those without a wrong pixel", described(*right)));

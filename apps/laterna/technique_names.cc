@@ -27,8 +27,8 @@ Result<std::vector<ShadowTechnique>> parse_techniques(const std::string& list) {
     const auto all = list_techniques();
     const auto found = std::find_if(all.begin(), all.end(), [&](const auto& t) { return t.name == name; });
     if (found == all.end()) {
-      return tl::unexpected(
-          bad_option(fmt::format("--techniques: there is no technique \"{}\"; there are all{}", name, known)));
+      return tl::unexpected(bad_option(
+          fmt::format("--techniques: there is no technique \"{}\"; there are all{}", name, known)));
     }
     if (std::find(techniques.begin(), techniques.end(), found->technique) == techniques.end())
       techniques.push_back(found->technique);

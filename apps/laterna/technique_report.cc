@@ -51,8 +51,10 @@ void print_table(const TechniqueComparison& comparison, const ProjectionCost& pr
                100 * r.wrong_share, 100 * r.acne, r.gap_texels);
   }
   for (const auto& s : comparison.skipped) fmt::print("{:<11} skipped: {}\n", name_of(s.technique), s.reason);
-  fmt::print("Frame by the clock; shadows and maps all threads together, maps being a part of shadows. Errors: of the "
-             "light for which they are largest.\n");
+  fmt::print(
+      "Frame by the clock; shadows and maps all threads together, maps being a part of shadows. Errors: of "
+      "the "
+      "light for which they are largest.\n");
   fmt::print("advice: {}\n\n", comparison.advice);
   fmt::print("{:<11} {:>9} {:>9} {:>9}\n", "", "ms", "Mtri/s", "Mpix/s");
   const auto line = [](const char* name, const ProjectionCost::Rate& rate) {
@@ -60,9 +62,11 @@ void print_table(const TechniqueComparison& comparison, const ProjectionCost& pr
   };
   line("textured", projection.textured);
   line("projected", projection.projected);
-  fmt::print("The same surfaces with one texture, or under one slide without shadows: projecting takes {:.2f} times as "
-             "long.\n",
-             projection.ratio());
+  fmt::print(
+      "The same surfaces with one texture, or under one slide without shadows: projecting takes {:.2f} times "
+      "as "
+      "long.\n",
+      projection.ratio());
 }
 
 }  // namespace laterna::app

@@ -36,11 +36,11 @@ enum class ShadowVerdict : std::uint8_t {
 struct ShadowAccuracy {
   ShadowTechnique technique = ShadowTechnique::none;
   std::string light;
-  std::size_t pixels = 0;     ///< whose triangle faces the light, within its cone, frame and range
-  double false_lit = 0;       ///< α ≥ ½ where the ray to the light is blocked
-  double false_dark = 0;      ///< and the reverse; acne is a part of it
-  double acne = 0;            ///< false dark farther than 2 texels of the light's shadow map from any true edge
-  double gap_texels = 0;      ///< the largest stretch of false light that begins where caster and receiver touch
+  std::size_t pixels = 0;  ///< whose triangle faces the light, within its cone, frame and range
+  double false_lit = 0;    ///< α ≥ ½ where the ray to the light is blocked
+  double false_dark = 0;   ///< and the reverse; acne is a part of it
+  double acne = 0;         ///< false dark farther than 2 texels of the light's shadow map from any true edge
+  double gap_texels = 0;   ///< the largest stretch of false light that begins where caster and receiver touch
   std::size_t edge_pixels = 0;  ///< places where one of the two masks has an edge
   /// From each such place to the other mask's nearest edge, in pixels, at most kFarthestEdge; 0 without edges.
   double edge_px_median = 0, edge_px_p99 = 0, edge_px_mean = 0;

@@ -115,13 +115,17 @@ class Measurement {
     return turn(light, false, ShadowTechnique::none);
   }
 
+  // Error with another failure than `cancelled`: the technique cannot serve the light.
   Result<ShadowAccuracy> measure_technique(int light, const std::string& name, ShadowTechnique technique,
                                            const LitPixels& pixels, const Mask& truth) {
+    if (std::string fault = find_fault(technique, renderer_.scene().lights[static_cast<std::size_t>(light)]);
+        !fault.empty()) {
+      return refuse(std::move(fault));
+    }
     const Result<Mask> mask = draw_mask(light, name, technique);
     if (!mask) return tl::unexpected(mask.error());
     if (!progress_->advance()) return tl::unexpected(cancelled());
-    ShadowAccuracy found =
-        measure::find_mask_errors(pixels, truth, *mask, settings_.subpixels, pool_);
+    ShadowAccuracy found = measure::find_mask_errors(pixels, truth, *mask, settings_.subpixels, pool_);
     found.technique = technique;
     found.light = name;
     if (!settings_.keep_verdicts) found.verdicts = {};
@@ -219,8 +223,7 @@ Result<AccuracyReport> measure_all(const Renderer& renderer, const View& view, A
   for (Light& light : scene.lights) {
     if (settings.resolution > 0) light.shadow.resolution = settings.resolution;
   }
-  Result<Renderer> own =
-      Renderer::create(std::move(scene), {renderer.threads(), renderer.instruction_set()});
+  Result<Renderer> own = Renderer::create(std::move(scene), {renderer.threads(), renderer.instruction_set()});
   if (!own) return tl::unexpected(std::move(own.error()));
   return Measurement(std::move(*own), view, settings, progress).run();
 }

@@ -69,7 +69,8 @@ class Sheet {
         const Rgb color = color_at(measured, x, y);
         const auto i = static_cast<std::size_t>(row * height_ + y) * static_cast<std::size_t>(image_.width) +
                        static_cast<std::size_t>(column * width_ + x);
-        for (std::size_t channel = 0; channel < 3; ++channel) image_.channels[channel].values[i] = color[channel];
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          image_.channels[channel].values[i] = color[channel];
       }
     }
   }

@@ -12,7 +12,8 @@ constexpr int kAround[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
 class ContactGaps {
  public:
-  ContactGaps(const LitPixels& pixels, const ShadowBoundaries& boundaries, const Mask& truth, const Mask& mask)
+  ContactGaps(const LitPixels& pixels, const ShadowBoundaries& boundaries, const Mask& truth,
+              const Mask& mask)
       : pixels_(pixels),
         surface_(pixels.surface()),
         boundaries_(boundaries),
@@ -58,15 +59,21 @@ class ContactGaps {
   void find_contact(int x, int y) {
     const std::size_t here = surface_.index(x, y);
     if (!is_false_light(here)) return;
+    const glm::dvec3 point_ws(surface_.position_ws[here]);
+    const double spacing = surface_.spacing[here];
+    const double blocker = pixels_.blocker_distance(point_ws, 1e-3 * spacing);
     for (const auto& [dx, dy] : kAround) {
       if (!surface_.contains(x + dx, y + dy)) continue;
       const std::size_t next = surface_.index(x + dx, y + dy);
-      if (!do_touch(here, next) || !is_darkened_from_near(here, next)) continue;
-      const glm::dvec3 between =
-          0.5 * (glm::dvec3(surface_.position_ws[here]) + glm::dvec3(surface_.position_ws[next]));
+      if (!do_touch(here, next)) continue;
+      // A pixel beside a wall may lie in the shadow of a roof far off.
+      if (blocker > 8 * (pixels_[here].footprint + spacing + surface_.spacing[next])) continue;
+      const glm::dvec3 between = 0.5 * (point_ws + glm::dvec3(surface_.position_ws[next]));
       reach(x, y, glm::vec2(pixels_.texel_of(pixels_[here].face, between)));
       return;
     }
+    // What touches may be out of sight.
+    if (blocker <= pixels_[here].footprint + spacing) reach(x, y, pixels_[here].texel);
   }
 
   // Two surfaces that meet as floor and wall do, each in front of the other.
@@ -79,13 +86,6 @@ class ContactGaps {
     return glm::dot(surface_.normal_ws[a], surface_.normal_ws[b]) < kSamePlane &&
            glm::length(step) <= 1.5F * apart && glm::dot(step, surface_.normal_ws[a]) >= slack &&
            -glm::dot(step, surface_.normal_ws[b]) >= slack;
-  }
-
-  // A pixel beside a wall may lie in the shadow of a roof far off.
-  [[nodiscard]] bool is_darkened_from_near(std::size_t a, std::size_t b) const {
-    const double reach = 8.0 * (pixels_[a].footprint + surface_.spacing[a] + surface_.spacing[b]);
-    const double start = 1e-3 * surface_.spacing[a];
-    return pixels_.blocker_distance(glm::dvec3(surface_.position_ws[a]), start) <= reach;
   }
 
   const LitPixels& pixels_;

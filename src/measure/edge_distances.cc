@@ -71,8 +71,8 @@ class Edges {
       if (!has(to, other)) continue;
       // The middle of a right side lies half a pixel to the right, that of a lower side half a pixel down.
       const float half = other == side ? 0.0F : (side == kRight ? -0.5F : 0.5F);
-      nearest = std::min(nearest, std::hypot(static_cast<float>(to_x - x) + half,
-                                             static_cast<float>(to_y - y) - half));
+      nearest = std::min(
+          nearest, std::hypot(static_cast<float>(to_x - x) + half, static_cast<float>(to_y - y) - half));
     }
     return nearest;
   }

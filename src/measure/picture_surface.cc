@@ -58,7 +58,7 @@ bool PictureSurface::is_continuous(std::size_t a, std::size_t b) const {
   if (glm::dot(normal_ws[a], normal_ws[b]) < kMostBent) return false;
   const glm::vec3 step = position_ws[b] - position_ws[a];
   const float length = glm::length(step);
-  constexpr float kMostApart = 3;  // of what a flat surface's pixels would be
+  constexpr float kMostApart = 3;   // of what a flat surface's pixels would be
   constexpr float kMostOff = 0.4F;  // the planes, as a share of the step
   return length <= kMostApart * (spacing[a] + spacing[b]) &&
          std::abs(glm::dot(step, normal_ws[a])) <= kMostOff * length &&
@@ -67,8 +67,8 @@ bool PictureSurface::is_continuous(std::size_t a, std::size_t b) const {
 
 Result<PictureSurface> draw_picture_surface(const Renderer& renderer, const View& view,
                                             const RenderSettings& settings) {
-  const Result<Renderer> flat = Renderer::create(with_flat_normals(renderer.scene()),
-                                                 {renderer.threads(), renderer.instruction_set()});
+  const Result<Renderer> flat =
+      Renderer::create(with_flat_normals(renderer.scene()), {renderer.threads(), renderer.instruction_set()});
   if (!flat) return tl::unexpected(flat.error());
   const Result<Geometry> seen = draw_geometry(renderer, view, settings);
   if (!seen) return tl::unexpected(seen.error());

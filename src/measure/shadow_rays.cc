@@ -19,8 +19,8 @@ Ray ray_to(const frame::PlacedLight& light, const glm::dvec3& point_ws) {
   const bool has_frustum = light.light->type == LightType::projector ||
                            (light.light->type == LightType::directional && !light.light->fit);
   if (has_frustum) {
-    const double near = light.light->type == LightType::projector ? light.view.projection.near
-                                                                   : light.light->projection.near;
+    const double near =
+        light.light->type == LightType::projector ? light.view.projection.near : light.light->projection.near;
     if (is_parallel(light)) {
       length = along - near;
     } else {
@@ -49,8 +49,8 @@ Result<std::unique_ptr<const ShadowRays>> ShadowRays::create(Scene scene, const 
   Result<frame::TextureLibrary> textures = frame::TextureLibrary::load(made->scene_, pool);
   if (!textures) return tl::unexpected(std::move(textures.error()));
   auto shared = std::make_shared<const frame::TextureLibrary>(std::move(*textures));
-  Result<frame::Frame> built = frame::Frame::build(made->scene_, std::move(shared),
-                                                   frame::build_clusters(made->scene_, pool), pool);
+  Result<frame::Frame> built =
+      frame::Frame::build(made->scene_, std::move(shared), frame::build_clusters(made->scene_, pool), pool);
   if (!built) return tl::unexpected(std::move(built.error()));
   made->frame_ = std::move(*built);
   made->rays_ = std::make_unique<trace::RayScene>(made->frame_);
@@ -76,8 +76,7 @@ double ShadowRays::blocker_distance(const frame::PlacedLight& light, const glm::
   const Ray ray = ray_to(light, point_ws);
   const auto start = static_cast<float>(near);
   if (ray.length <= start) return std::numeric_limits<double>::infinity();
-  const trace::RayScene::Hit hit =
-      rays_->nearest(glm::vec3(point_ws), ray.direction_ws, start, ray.length);
+  const trace::RayScene::Hit hit = rays_->nearest(glm::vec3(point_ws), ray.direction_ws, start, ray.length);
   return hit.id == kNoTriangle ? std::numeric_limits<double>::infinity() : static_cast<double>(hit.t);
 }
 

@@ -44,8 +44,7 @@ Box bounds_of(const Scene& scene) {
         const glm::dvec3 side((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
                               (corner & 4) != 0 ? 1 : -1);
         const glm::dvec3 point_ws =
-            world_from_node[i] * place *
-            glm::dvec4(meshes[static_cast<std::size_t>(node.mesh)].at(side), 1);
+            world_from_node[i] * place * glm::dvec4(meshes[static_cast<std::size_t>(node.mesh)].at(side), 1);
         bounds.low = glm::min(bounds.low, point_ws);
         bounds.high = glm::max(bounds.high, point_ws);
       }
@@ -101,7 +100,8 @@ Result<Scene> with_standard_lights(Scene scene) {
   for (Result<void> added :
        {add(scene, light_of("auto sun", LightType::directional, 1), middle + toward_sun, middle),
         add(scene, spot, bounds.at({-0.5, 0.8, 0.4}), bounds.at({0.2, -1, -0.1})),
-        add(scene, light_of("auto point", LightType::point, candela), bounds.at({0.3, 0.5, -0.35}), middle)}) {
+        add(scene, light_of("auto point", LightType::point, candela), bounds.at({0.3, 0.5, -0.35}),
+            middle)}) {
     if (!added) return tl::unexpected(std::move(added.error()));
   }
   return scene;
