@@ -12,7 +12,11 @@ import unittest
 from pathlib import Path
 
 LATERNA, SCENES = sys.argv[1], Path(sys.argv[2])
-STAGE = [str(SCENES / "stage.glb"), "--rig", str(SCENES / "stage.json"), "--camera", "main", "--size", "96x72"]
+FOLDER = tempfile.TemporaryDirectory()
+SUN = Path(FOLDER.name) / "sun.json"
+SUN.write_text('{"lights": [{"name": "sun", "type": "directional", "position": [2, 5, 3], "target": [0, 0, 0]}]}',
+               encoding="utf-8")
+STAGE = [str(SCENES / "stage.glb"), "--rig", str(SUN), "--rig", str(SCENES / "stage.json"), "--size", "96x72"]
 KEYS = ["technique", "light", "false_lit", "false_dark", "acne", "gap_texels", "edge_px_median", "edge_px_p99", "ms",
         "mb"]
 QUICK = ["--frames", "1", "--threads", "2"]
