@@ -1,59 +1,84 @@
 #include "measure/contact_gaps.h"
 
 #include <algorithm>
-#include <deque>
 #include <glm/geometric.hpp>
-#include <optional>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+#include "measure/shadow_boundaries.h"
 
 namespace laterna::measure {
 namespace {
 
+// Rays start this share of a pixel off their surface.
+constexpr double kStart = 1e-3;
+
 constexpr int kAround[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+
+// A caster on the pixel itself, as far as pixels and texels can tell.
+bool is_touched(const LitPixels& pixels, std::size_t i) {
+  const PictureSurface& surface = pixels.surface();
+  return pixels.blocker_distance(glm::dvec3(surface.position_ws[i]), kStart * surface.spacing[i]) <=
+         pixels[i].footprint + surface.spacing[i];
+}
 
 class ContactGaps {
  public:
-  ContactGaps(const LitPixels& pixels, const ShadowBoundaries& boundaries, const Mask& truth,
-              const Mask& mask)
+  ContactGaps(const LitPixels& pixels, const Mask& truth, const Mask& mask)
       : pixels_(pixels),
         surface_(pixels.surface()),
-        boundaries_(boundaries),
+        // Where a caster stands on its receiver, one side of it may be lit and the other dark: that is no shadow's end.
+        boundaries_(pixels, truth, [&pixels](std::size_t dark) { return !is_touched(pixels, dark); }),
         truth_(truth),
         mask_(mask),
-        contacts_(mask.size()) {}
+        distances_(mask.size(), kUnreached) {}
 
   double largest() {
     for (int y = 0; y < surface_.height; ++y) {
       for (int x = 0; x < surface_.width; ++x) find_contact(x, y);
     }
-    double largest = 0;
-    // Each pixel takes over the contact of the one from which it was reached first.
+    float largest = 0;
+    // The nearest first, so that each pixel is measured from the contact nearest to it.
     while (!reached_.empty()) {
-      const auto [x, y] = reached_.front();
-      reached_.pop_front();
-      const std::size_t here = surface_.index(x, y);
-      const glm::vec2 contact = *contacts_[here];
-      largest = std::max(largest, static_cast<double>(glm::distance(contact, pixels_[here].texel)));
+      const Reached at = reached_.top();
+      reached_.pop();
+      const std::size_t here = surface_.index(at.x, at.y);
+      if (at.distance > distances_[here]) continue;
+      largest = std::max(largest, at.distance);
       for (const auto& [dx, dy] : kAround) {
-        if (!surface_.contains(x + dx, y + dy)) continue;
-        const std::size_t next = surface_.index(x + dx, y + dy);
+        if (!surface_.contains(at.x + dx, at.y + dy)) continue;
+        const std::size_t next = surface_.index(at.x + dx, at.y + dy);
         if (pixels_[next].face == pixels_[here].face && surface_.is_continuous(here, next))
-          reach(x + dx, y + dy, contact);
+          reach(at.x + dx, at.y + dy, at.contact);
       }
     }
-    return largest;
+    return static_cast<double>(largest);
   }
 
  private:
+  static constexpr float kUnreached = std::numeric_limits<float>::infinity();
+
+  struct Reached {
+    float distance;  // texels from the contact
+    int x, y;
+    glm::vec2 contact;  // in texels
+    bool operator<(const Reached& other) const {
+      return std::tie(distance, y, x) > std::tie(other.distance, other.y, other.x);
+    }
+  };
+
   [[nodiscard]] bool is_false_light(std::size_t i) const {
     return pixels_.is_counted(i) && is_lit(mask_[i]) && !is_lit(truth_[i]);
   }
 
   void reach(int x, int y, const glm::vec2& contact) {
     const std::size_t i = surface_.index(x, y);
-    if (contacts_[i] || !is_false_light(i)) return;
+    const float distance = glm::distance(contact, pixels_[i].texel);
+    if (distance >= distances_[i] || !is_false_light(i)) return;
     if (boundaries_.distance_from(i, kEdgeTexels) <= kEdgeTexels) return;
-    contacts_[i] = contact;
-    reached_.emplace_back(x, y);
+    distances_[i] = distance;
+    reached_.push({distance, x, y, contact});
   }
 
   void find_contact(int x, int y) {
@@ -61,7 +86,7 @@ class ContactGaps {
     if (!is_false_light(here)) return;
     const glm::dvec3 point_ws(surface_.position_ws[here]);
     const double spacing = surface_.spacing[here];
-    const double blocker = pixels_.blocker_distance(point_ws, 1e-3 * spacing);
+    const double blocker = pixels_.blocker_distance(point_ws, kStart * spacing);
     for (const auto& [dx, dy] : kAround) {
       if (!surface_.contains(x + dx, y + dy)) continue;
       const std::size_t next = surface_.index(x + dx, y + dy);
@@ -90,18 +115,17 @@ class ContactGaps {
 
   const LitPixels& pixels_;
   const PictureSurface& surface_;
-  const ShadowBoundaries& boundaries_;
+  ShadowBoundaries boundaries_;
   const Mask& truth_;
   const Mask& mask_;
-  std::vector<std::optional<glm::vec2>> contacts_;  // in texels, where reached
-  std::deque<std::pair<int, int>> reached_;
+  std::vector<float> distances_;  // texels from the nearest contact so far
+  std::priority_queue<Reached> reached_;
 };
 
 }  // namespace
 
-double largest_contact_gap(const LitPixels& pixels, const ShadowBoundaries& boundaries, const Mask& truth,
-                           const Mask& mask) {
-  return ContactGaps(pixels, boundaries, truth, mask).largest();
+double largest_contact_gap(const LitPixels& pixels, const Mask& truth, const Mask& mask) {
+  return ContactGaps(pixels, truth, mask).largest();
 }
 
 }  // namespace laterna::measure

@@ -59,7 +59,7 @@ ShadowAccuracy find_mask_errors(const LitPixels& pixels, const Mask& truth, cons
   errors.acne = share(ShadowVerdict::acne);
   errors.false_dark = share(ShadowVerdict::false_dark) + errors.acne;
   errors.mean_error /= static_cast<double>(errors.pixels);
-  errors.gap_texels = largest_contact_gap(pixels, boundaries, truth, mask);
+  if (errors.false_lit > 0) errors.gap_texels = largest_contact_gap(pixels, truth, mask);
   const EdgeDistances edges = find_edge_distances(pixels, truth, mask, subpixels);
   errors.edge_pixels = edges.edges;
   errors.edge_px_median = edges.median;

@@ -24,7 +24,8 @@ std::uint64_t key(int object, int face, std::int64_t x, std::int64_t y) {
 
 }  // namespace
 
-ShadowBoundaries::ShadowBoundaries(const LitPixels& pixels, const Mask& truth) : pixels_(pixels) {
+ShadowBoundaries::ShadowBoundaries(const LitPixels& pixels, const Mask& truth, const Counts& counts)
+    : pixels_(pixels) {
   const PictureSurface& surface = pixels.surface();
   for (int y = 0; y < surface.height; ++y) {
     for (int x = 0; x < surface.width; ++x) {
@@ -33,7 +34,8 @@ ShadowBoundaries::ShadowBoundaries(const LitPixels& pixels, const Mask& truth) :
       for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{0, 1}}) {
         if (!surface.contains(x + dx, y + dy)) continue;
         const std::size_t next = surface.index(x + dx, y + dy);
-        if (is_lit(truth[here]) != is_lit(truth[next])) add(here, next);
+        if (!pixels.is_counted(next) || is_lit(truth[here]) == is_lit(truth[next])) continue;
+        if (!counts || counts(is_lit(truth[here]) ? next : here)) add(here, next);
       }
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "measure/lit_pixels.h"
@@ -11,7 +12,9 @@ namespace laterna::measure {
 /// The boundaries that a picture shows: halfway between neighbouring pixels of one surface of which one is lit.
 class ShadowBoundaries {
  public:
-  ShadowBoundaries(const LitPixels& pixels, const Mask& truth);
+  /// `counts`: asked of the dark pixel of each; all count without it.
+  using Counts = std::function<bool(std::size_t dark_pixel)>;
+  ShadowBoundaries(const LitPixels& pixels, const Mask& truth, const Counts& counts = {});
   /// Texels from the pixel to the nearest boundary that its surface, going on as it is or twice as steep, would meet;
   /// infinity beyond `reach`.
   [[nodiscard]] double distance_from(std::size_t pixel, double reach) const;

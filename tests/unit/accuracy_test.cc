@@ -253,12 +253,12 @@ TEST(ShadowAccuracyMeasure, AgreesWithAnIndependentCount) {
     const ShadowErrors expected =
         find_shadow_errors(draw_shadow_masks(renderer, shown.camera, test_settings(320, 240), "light", 1));
     const auto pixels = static_cast<double>(found.pixels);
-    // It leaves out a few pixels at silhouettes, and what lies beside a fitted map.
+    // It counts what lies in a spotlight's map beside its cone, and leaves out what lies beside a fitted map.
     const double slack = 0.01 * (expected.false_lit + expected.false_dark) + 2;
     EXPECT_NEAR(found.false_lit * pixels, expected.false_lit, slack);
     EXPECT_NEAR(found.false_dark * pixels, expected.false_dark, slack);
     EXPECT_NEAR(found.acne * pixels, expected.far_false_dark, slack);
-    EXPECT_GE(pixels, expected.pixels);
+    EXPECT_NEAR(pixels, expected.pixels, 0.05 * pixels);
     EXPECT_GT(expected.false_lit + expected.false_dark, 100);
   }
 }
@@ -275,8 +275,12 @@ TEST(ShadowAccuracyMeasure, EveryTechniqueIsMeasuredForEveryLightAndTheTruthIsFa
   for (const ShadowAccuracy& m : report.measured) {
     EXPECT_EQ(m.verdicts.size(), 96U * 96U);
     EXPECT_GE(m.ms, 0);
-    if (m.technique == ShadowTechnique::map) EXPECT_GT(m.mb, 0.1);
-    if (m.technique == ShadowTechnique::none) EXPECT_GT(m.false_lit, 0.01);
+    if (m.technique == ShadowTechnique::map) {
+      EXPECT_GT(m.mb, 0.1);
+    }
+    if (m.technique == ShadowTechnique::none) {
+      EXPECT_GT(m.false_lit, 0.01);
+    }
     if (m.technique != ShadowTechnique::raytraced) continue;
     ++truths;
     EXPECT_EQ(m.false_lit + m.false_dark + m.gap_texels + m.edge_px_p99 + m.mean_error, 0);
