@@ -14,6 +14,9 @@ namespace {
 // Rays start this share of a pixel off their surface.
 constexpr double kStart = 1e-3;
 
+// Texels between the pixels of a contact.
+constexpr float kMostBetween = 2;
+
 constexpr int kAround[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
 // A caster on the pixel itself, as far as pixels and texels can tell.
@@ -93,8 +96,10 @@ class ContactGaps {
       if (!do_touch(here, next)) continue;
       // A pixel beside a wall may lie in the shadow of a roof far off.
       if (blocker > 8 * (pixels_[here].footprint + spacing + surface_.spacing[next])) continue;
-      const glm::dvec3 between = 0.5 * (point_ws + glm::dvec3(surface_.position_ws[next]));
-      reach(x, y, glm::vec2(pixels_.texel_of(pixels_[here].face, between)));
+      const glm::vec2 other(pixels_.texel_of(pixels_[here].face, glm::dvec3(surface_.position_ws[next])));
+      // Where pixels are many texels apart, the picture does not show where between them the contact is.
+      if (glm::distance(other, pixels_[here].texel) > kMostBetween) continue;
+      reach(x, y, 0.5F * (pixels_[here].texel + other));
       return;
     }
     // What touches may be out of sight.

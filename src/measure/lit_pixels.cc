@@ -36,8 +36,9 @@ Result<LitPixels> LitPixels::find(const Renderer& renderer, const PictureSurface
     if (surface.object[i] < 0) continue;
     const glm::dvec3 point_ws(surface.position_ws[i]);
     const double facing = glm::dot(glm::dvec3(surface.normal_ws[i]), direction_to(*found.light_, point_ws));
-    if (facing <= 0 || !found.reaches(point_ws)) continue;
     LitPixel& pixel = found.pixels_[i];
+    pixel.is_turned_away = facing <= 0;
+    if (facing <= 0 || !found.reaches(point_ws)) continue;
     pixel = found.locate(point_ws);
     pixel.slope =
         static_cast<float>(pixel.footprint * std::sqrt(std::max(0.0, 1 - facing * facing)) / facing);

@@ -15,11 +15,12 @@ using Mask = std::vector<float>;
 inline bool is_lit(float alpha) { return alpha >= 0.5F; }
 
 struct LitPixel {
-  int face = -1;        ///< of the light's maps; −1: the light does not fall on this pixel
-  glm::vec2 texel{0};   ///< in that map; beyond its sides too, where the light is not held to them
-  float depth = 0;      ///< metres along the map's axis
-  float footprint = 0;  ///< of a texel at that depth, metres
-  float slope = 0;      ///< metres of depth from one texel to the next along the surface, at most
+  int face = -1;                ///< of the light's maps; −1: the light does not fall on this pixel
+  bool is_turned_away = false;  ///< which then is why
+  glm::vec2 texel{0};           ///< in that map; beyond its sides too, where the light is not held to them
+  float depth = 0;              ///< metres along the map's axis
+  float footprint = 0;          ///< of a texel at that depth, metres
+  float slope = 0;              ///< metres of depth from one texel to the next along the surface, at most
 };
 
 class LitPixels {

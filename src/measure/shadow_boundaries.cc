@@ -30,12 +30,15 @@ ShadowBoundaries::ShadowBoundaries(const LitPixels& pixels, const Mask& truth, c
   for (int y = 0; y < surface.height; ++y) {
     for (int x = 0; x < surface.width; ++x) {
       const std::size_t here = surface.index(x, y);
-      if (!pixels.is_counted(here)) continue;
       for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{0, 1}}) {
         if (!surface.contains(x + dx, y + dy)) continue;
         const std::size_t next = surface.index(x + dx, y + dy);
-        if (!pixels.is_counted(next) || is_lit(truth[here]) == is_lit(truth[next])) continue;
-        if (!counts || counts(is_lit(truth[here]) ? next : here)) add(here, next);
+        const bool here_is_lit = pixels.is_counted(here) && is_lit(truth[here]);
+        const bool next_is_lit = pixels.is_counted(next) && is_lit(truth[next]);
+        if (here_is_lit == next_is_lit) continue;
+        const std::size_t dark = here_is_lit ? next : here;
+        if (!pixels.is_counted(dark) && !pixels[dark].is_turned_away) continue;
+        if (!counts || !pixels.is_counted(dark) || counts(dark)) add(here_is_lit ? here : next, dark);
       }
     }
   }
@@ -43,14 +46,18 @@ ShadowBoundaries::ShadowBoundaries(const LitPixels& pixels, const Mask& truth, c
             [](const Boundary& a, const Boundary& b) { return a.cell < b.cell; });
 }
 
-void ShadowBoundaries::add(std::size_t a, std::size_t b) {
+void ShadowBoundaries::add(std::size_t lit, std::size_t dark) {
   const PictureSurface& surface = pixels_.surface();
-  const LitPixel& first = pixels_[a];
-  const LitPixel& second = pixels_[b];
-  if (first.face != second.face || surface.object[a] != surface.object[b]) return;
-  if (glm::distance(first.texel, second.texel) > kMostBetween) return;
+  const LitPixel& first = pixels_[lit];
+  LitPixel second = pixels_[dark];
+  if (surface.object[lit] != surface.object[dark]) return;
+  if (second.is_turned_away) {
+    second = first;
+    second.texel = glm::vec2(pixels_.texel_of(first.face, glm::dvec3(surface.position_ws[dark])));
+  }
+  if (first.face != second.face || glm::distance(first.texel, second.texel) > kMostBetween) return;
   const glm::vec2 texel = 0.5F * (first.texel + second.texel);
-  boundaries_.push_back({key(surface.object[a], first.face, cell_of(texel.x), cell_of(texel.y)), texel,
+  boundaries_.push_back({key(surface.object[lit], first.face, cell_of(texel.x), cell_of(texel.y)), texel,
                          0.5F * (first.depth + second.depth)});
 }
 

@@ -9,10 +9,11 @@
 
 namespace laterna::measure {
 
-/// The boundaries that a picture shows: halfway between neighbouring pixels of one surface of which one is lit.
+/// The boundaries that a picture shows: halfway between neighbouring pixels of one object of which one is lit and the other
+/// in shadow or turned away from the light.
 class ShadowBoundaries {
  public:
-  /// `counts`: asked of the dark pixel of each; all count without it.
+  /// `counts`: asked of the pixel in shadow of each; all count without it.
   using Counts = std::function<bool(std::size_t dark_pixel)>;
   ShadowBoundaries(const LitPixels& pixels, const Mask& truth, const Counts& counts = {});
   /// Texels from the pixel to the nearest boundary that its surface, going on as it is or twice as steep, would meet;
@@ -25,7 +26,7 @@ class ShadowBoundaries {
     glm::vec2 texel{0};
     float depth = 0;
   };
-  void add(std::size_t a, std::size_t b);
+  void add(std::size_t lit, std::size_t dark);
   const LitPixels& pixels_;
   std::vector<Boundary> boundaries_;  // sorted by cell
 };
