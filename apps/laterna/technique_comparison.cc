@@ -26,6 +26,7 @@ Result<Subject> without_own_techniques(const Subject& subject) {
 double median_over(const std::vector<RenderStatistics>& frames,
                    const std::function<double(const RenderStatistics&)>& value_of) {
   std::vector<double> values;
+  values.reserve(frames.size());
   for (const RenderStatistics& frame : frames) values.push_back(value_of(frame));
   return timing_of(std::move(values)).median;
 }

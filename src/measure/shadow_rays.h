@@ -15,6 +15,7 @@ namespace laterna::measure {
 class ShadowRays {
  public:
   static Result<std::unique_ptr<const ShadowRays>> create(Scene scene, const TaskPool& pool);
+  ~ShadowRays() = default;
   ShadowRays(const ShadowRays&) = delete;
   ShadowRays& operator=(const ShadowRays&) = delete;
 
