@@ -22,8 +22,8 @@ constexpr int kAround[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 // A caster on the pixel itself, as far as pixels and texels can tell.
 bool is_touched(const LitPixels& pixels, std::size_t i) {
   const PictureSurface& surface = pixels.surface();
-  return pixels.blocker_distance(glm::dvec3(surface.position_ws[i]), kStart * surface.spacing[i]) <=
-         pixels[i].footprint + surface.spacing[i];
+  return pixels.is_blocked(glm::dvec3(surface.position_ws[i]), kStart * surface.spacing[i],
+                           pixels[i].footprint + surface.spacing[i]);
 }
 
 class ContactGaps {
@@ -89,13 +89,13 @@ class ContactGaps {
     if (!is_false_light(here)) return;
     const glm::dvec3 point_ws(surface_.position_ws[here]);
     const double spacing = surface_.spacing[here];
-    const double blocker = pixels_.blocker_distance(point_ws, kStart * spacing);
     for (const auto& [dx, dy] : kAround) {
       if (!surface_.contains(x + dx, y + dy)) continue;
       const std::size_t next = surface_.index(x + dx, y + dy);
       if (!do_touch(here, next)) continue;
       // A pixel beside a wall may lie in the shadow of a roof far off.
-      if (blocker > 8 * (pixels_[here].footprint + spacing + surface_.spacing[next])) continue;
+      const double reach_m = 8 * (pixels_[here].footprint + spacing + surface_.spacing[next]);
+      if (!pixels_.is_blocked(point_ws, kStart * spacing, reach_m)) continue;
       const glm::vec2 other(pixels_.texel_of(pixels_[here].face, glm::dvec3(surface_.position_ws[next])));
       // Where pixels are many texels apart, the picture does not show where between them the contact is.
       if (glm::distance(other, pixels_[here].texel) > kMostBetween) continue;
@@ -103,7 +103,7 @@ class ContactGaps {
       return;
     }
     // What touches may be out of sight.
-    if (blocker <= pixels_[here].footprint + spacing) reach(x, y, pixels_[here].texel);
+    if (is_touched(pixels_, here)) reach(x, y, pixels_[here].texel);
   }
 
   // Two surfaces that meet as floor and wall do, each in front of the other.

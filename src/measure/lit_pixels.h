@@ -38,11 +38,9 @@ class LitPixels {
   [[nodiscard]] glm::dvec2 texel_of(int face, const glm::dvec3& point_ws) const;
   /// The point of the pixel's plane that the light sees some texels beside it.
   [[nodiscard]] glm::dvec3 beside(std::size_t i, const glm::dvec2& texels) const;
-  [[nodiscard]] bool is_blocked(const glm::dvec3& point_ws, double near) const {
-    return rays_->is_blocked(*light_, point_ws, near);
-  }
-  [[nodiscard]] double blocker_distance(const glm::dvec3& point_ws, double near) const {
-    return rays_->blocker_distance(*light_, point_ws, near);
+  [[nodiscard]] bool is_blocked(const glm::dvec3& point_ws, double near,
+                                double far = std::numeric_limits<double>::infinity()) const {
+    return rays_->is_blocked(*light_, point_ws, near, far);
   }
 
  private:

@@ -1,5 +1,6 @@
 #include "measure/shadow_rays.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 namespace laterna::measure {
@@ -64,20 +65,12 @@ const frame::PlacedLight* ShadowRays::find(const std::string& light) const {
   return nullptr;
 }
 
-bool ShadowRays::is_blocked(const frame::PlacedLight& light, const glm::dvec3& point_ws, double near) const {
+bool ShadowRays::is_blocked(const frame::PlacedLight& light, const glm::dvec3& point_ws, double near,
+                            double far) const {
   const Ray ray = ray_to(light, point_ws);
   const auto start = static_cast<float>(near);
-  return ray.length > start &&
-         rays_->is_blocked(glm::vec3(point_ws), ray.direction_ws, start, ray.length, kNoTriangle);
-}
-
-double ShadowRays::blocker_distance(const frame::PlacedLight& light, const glm::dvec3& point_ws,
-                                    double near) const {
-  const Ray ray = ray_to(light, point_ws);
-  const auto start = static_cast<float>(near);
-  if (ray.length <= start) return std::numeric_limits<double>::infinity();
-  const trace::RayScene::Hit hit = rays_->nearest(glm::vec3(point_ws), ray.direction_ws, start, ray.length);
-  return hit.id == kNoTriangle ? std::numeric_limits<double>::infinity() : static_cast<double>(hit.t);
+  const float end = std::min(ray.length, static_cast<float>(far));
+  return end > start && rays_->is_blocked(glm::vec3(point_ws), ray.direction_ws, start, end, kNoTriangle);
 }
 
 }  // namespace laterna::measure

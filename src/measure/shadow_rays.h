@@ -21,12 +21,10 @@ class ShadowRays {
 
   /// Null: no such light is on.
   [[nodiscard]] const frame::PlacedLight* find(const std::string& light) const;
-  /// Whether anything casts a shadow on the point from beyond `near` metres. Const calls may come from several threads.
-  [[nodiscard]] bool is_blocked(const frame::PlacedLight& light, const glm::dvec3& point_ws,
-                                double near) const;
-  /// Metres to the caster nearest to the point, towards the light; +infinity where there is none.
-  [[nodiscard]] double blocker_distance(const frame::PlacedLight& light, const glm::dvec3& point_ws,
-                                        double near) const;
+  /// Whether anything casts a shadow on the point from between `near` and `far` metres. Const calls may come from several
+  /// threads.
+  [[nodiscard]] bool is_blocked(const frame::PlacedLight& light, const glm::dvec3& point_ws, double near,
+                                double far = std::numeric_limits<double>::infinity()) const;
 
  private:
   explicit ShadowRays(Scene scene) : scene_(std::move(scene)) {}
