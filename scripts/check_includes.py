@@ -28,6 +28,7 @@ ROOMS = {
 
 # The room that implements each header of include/laterna: who may include the room may include the header.
 PUBLIC_HEADERS = {
+    "accuracy.h": "measure",
     "build_info.h": "measure",
     "image.h": "image",
     "instruction_set.h": "base",

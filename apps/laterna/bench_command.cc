@@ -7,8 +7,9 @@
 
 #include "frame_costs.h"
 #include "outcome.h"
-#include "scene_options.h"
-#include "workload.h"
+#include "subject.h"
+#include "technique_names.h"
+#include "technique_report.h"
 
 namespace laterna::app {
 namespace {
@@ -16,35 +17,11 @@ namespace {
 using Json = nlohmann::json;
 
 struct Options {
-  SceneOptions scene;
-  ViewOptions view;
-  std::string workload, name = "W1", scenes, picture, shadows = "map";
+  SubjectOptions subject;
+  std::string picture, shadows = "map", techniques;
   FrameSeries series;
   bool keep_maps = false, json = false;
 };
-
-Result<Subject> prepare_workload(const Options& options) {
-  const Result<RendererOptions> machine = options.scene.renderer_options();
-  if (!machine) return tl::unexpected(machine.error());
-  Result<Workload> workload = load_workload(options.workload, options.name, options.scenes);
-  if (!workload) return tl::unexpected(workload.error());
-  Result<Renderer> renderer = Renderer::create(std::move(workload->scene), *machine);
-  if (!renderer) return tl::unexpected(renderer.error());
-  return Subject{std::move(*renderer), workload->view, workload->settings, workload->depth_light};
-}
-
-Result<Subject> prepare_scene(const Options& options) {
-  const Result<ViewOptions::Size> size = options.view.parse_size();
-  if (!size) return tl::unexpected(size.error());
-  Result<Renderer> renderer = options.scene.make_renderer();
-  if (!renderer) return tl::unexpected(renderer.error());
-  const Result<View> view = options.view.find(*renderer, *size);
-  if (!view) return tl::unexpected(view.error());
-  RenderSettings settings;
-  settings.width = size->width;
-  settings.height = size->height;
-  return Subject{std::move(*renderer), *view, settings, {}};
-}
 
 struct Phase {
   const char* name;
@@ -122,17 +99,42 @@ void print_table(const FrameCosts& costs, const Subject& subject) {
 }
 
 std::string fault_of(const Options& options) {
-  if (options.workload.empty() && options.scene.files.empty()) return "bench needs a SCENE or --workload";
+  if (std::string fault = options.subject.find_fault("bench"); !fault.empty()) return fault;
+  if (!options.techniques.empty() &&
+      (options.keep_maps || options.series.poses_anew || !options.picture.empty())) {
+    return "--techniques excludes --cached, --pose and --png";
+  }
   if (options.series.warm_up < 0) return "--warm-up must be at least 0";
   if (options.picture == "-") return "bench prints to standard output: give --png a file";
   if (options.series.frames < 1) return "--frames must be at least 1";
   return {};
 }
 
+// Techniques beside each other, and projecting beside texturing.
+int compare(const Options& options, const Subject& subject, const std::vector<ShadowTechnique>& techniques) {
+  if (!subject.depth_light.empty()) {
+    return report(bad_option("--techniques: the workload draws a depth map alone, which has no shadows"));
+  }
+  const Result<TechniqueComparison> comparison = compare_techniques(subject, options.series, techniques);
+  if (!comparison) return report(comparison.error());
+  const Result<ProjectionCost> projection = measure_projection(subject, options.series);
+  if (!projection) return report(projection.error());
+  if (options.json) {
+    fmt::print("{}\n", json_of(*comparison, *projection).dump(2));
+  } else {
+    print_table(*comparison, *projection);
+  }
+  return kOk;
+}
+
 int run_bench(const Options& options) {
   if (const std::string fault = fault_of(options); !fault.empty()) return report(bad_option(fault));
-  Result<Subject> subject = options.workload.empty() ? prepare_scene(options) : prepare_workload(options);
+  Result<std::vector<ShadowTechnique>> techniques;
+  if (!options.techniques.empty()) techniques = parse_techniques(options.techniques);
+  if (!techniques) return report(techniques.error());
+  Result<Subject> subject = options.subject.prepare();
   if (!subject) return report(subject.error());
+  if (!techniques->empty()) return compare(options, *subject, *techniques);
   subject->settings.keep_shadow_maps = options.keep_maps;
   for (const TechniqueDescription& t : list_techniques()) {
     if (t.name == options.shadows) subject->settings.shadows = t.technique;
@@ -152,16 +154,7 @@ int run_bench(const Options& options) {
 void declare_bench(CLI::App& app, Run& run) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("bench", "milliseconds per stage, median of several frames");
-  options->scene.declare_scene(*command);
-  command->get_option("SCENE")->required(false);
-  options->view.declare(*command);
-  command->add_option("--workload", options->workload, "JSON file of named workloads instead of a SCENE");
-  command
-      ->add_option("--name", options->name,
-                   "which workload; W4.0: the first of a list, here of depth maps alone")
-      ->capture_default_str();
-  command->add_option("--scenes", options->scenes,
-                      "folder of the workload's models; default: scenes beside the file");
+  options->subject.declare(*command);
   command->add_option("--shadows", options->shadows, "technique for lights that name none")
       ->check(CLI::IsMember(technique_names()))
       ->capture_default_str();
@@ -170,10 +163,16 @@ void declare_bench(CLI::App& app, Run& run) {
   command->add_flag("--cached", options->keep_maps, "keep shadow maps from frame to frame");
   command->add_flag("--pose", options->series.poses_anew,
                     "carry geometry to world space before each frame, as when something moves");
+  command->add_option(
+      "--techniques", options->techniques,
+      "all, or names with commas between: what each costs beside how right it is, which to take, "
+      "and what projecting costs beside texturing");
   command->add_option("--png", options->picture, "write the last frame");
-  options->scene.declare_machine(*command);
+  options->subject.scene.declare_machine(*command);
   command->add_flag("--json", options->json, "as JSON");
-  command->footer("\nExample:\n  laterna bench scene.glb --size 1920x1080 --frames 15 --threads 2\n");
+  command->footer(
+      "\nExample:\n  laterna bench scene.glb --size 1920x1080 --frames 15 --threads 2\n"
+      "  laterna bench scene.glb --techniques all\n");
   command->callback([options, &run] { run = [options] { return run_bench(*options); }; });
 }
 

@@ -75,6 +75,12 @@ Timing timing_of(std::vector<double> values) {
   return {median, values.front(), values.back()};
 }
 
+std::vector<RenderStatistics> FrameCosts::drawings() const {
+  std::vector<RenderStatistics> all;
+  for (const FrameCost& cost : costs_) all.push_back(cost.drawing);
+  return all;
+}
+
 Timing FrameCosts::phase(double RenderStatistics::*phase) const {
   return timing_over(costs_, [&](const FrameCost& cost) { return cost.drawing.*phase; });
 }

@@ -41,6 +41,8 @@ class FrameCosts {
   [[nodiscard]] std::size_t count() const { return costs_.size(); }
   [[nodiscard]] const RenderStatistics& last() const { return costs_.back().drawing; }
 
+  [[nodiscard]] std::vector<RenderStatistics> drawings() const;
+
   [[nodiscard]] Timing phase(double RenderStatistics::*phase) const;
   [[nodiscard]] Timing pose() const;
   /// Pose and drawing.
