@@ -110,15 +110,25 @@ class MapReader {
     return r;
   }
 
-  // α of plain filters.
-  HWY_INLINE FloatVector Arrival(Receiver r) const {
+  // How far behind what a texel holds a sample may lie and still be lit, as reversed depth.
+  HWY_INLINE FloatVector Bias(const Receiver& r) const {
     // Back sides are in the shadow of their own front, if of anything: there is no self-shadowing to prevent.
     const ShadowBias& b = test_.bias;
     const auto slope = hn::Abs(r.q_dx) + hn::Abs(r.q_dy);
     const auto metres = Splat(b.metres) * (bound_.is_orthographic ? Splat(1.0F) : r.q * r.q);
-    const auto bias = r.rounding + metres +
-                      hn::IfThenElseZero(r.faces_light, Splat(b.texels) * r.texel + Splat(b.slope) * slope);
-    if (!b.uses_receiver_plane) r.q_dx = r.q_dy = Splat(0.0F);
+    return r.rounding + metres +
+           hn::IfThenElseZero(r.faces_light, Splat(b.texels) * r.texel + Splat(b.slope) * slope);
+  }
+  // The receiver as it is compared: a manual bias knows no plane.
+  HWY_INLINE Receiver Compared(Receiver r) const {
+    if (!test_.bias.uses_receiver_plane) r.q_dx = r.q_dy = Splat(0.0F);
+    return r;
+  }
+
+  // α of plain filters.
+  HWY_INLINE FloatVector Arrival(Receiver r) const {
+    const auto bias = Bias(r);
+    r = Compared(r);
     FloatVector lit;
     switch (test_.filter) {
       case ShadowFilter::nearest:
@@ -166,6 +176,23 @@ class MapReader {
   // (dx, dy): from the sample to the texel's centre.
   HWY_INLINE Depths DepthsAt(const Receiver& r, IntVector index, FloatVector dx, FloatVector dy) const {
     return {hn::GatherIndex(FloatTag(), map_.texels(), index), r.q + (r.q_dx * dx + r.q_dy * dy)};
+  }
+
+  // The texel in which the receiver lies.
+  struct NearestTexel {
+    FloatVector stored, tested;
+    FloatMask is_inside;
+  };
+  HWY_INLINE NearestTexel FindNearest(const Receiver& r) const {
+    const FloatTag d;
+    const IntTag di;
+    const auto floor_x = hn::Floor(Held(r.x)), floor_y = hn::Floor(Held(r.y));
+    const auto i = hn::ConvertTo(di, floor_x), j = hn::ConvertTo(di, floor_y);
+    const auto held_i = hn::Min(hn::Max(i, hn::Zero(di)), SplatInt(map_.width() - 1)),
+               held_j = hn::Min(hn::Max(j, hn::Zero(di)), SplatInt(map_.height() - 1));
+    const Depths depths = DepthsAt(r, ColumnPart(held_i) + RowPart(held_j, map_.tiles_x()),
+                                   floor_x + Splat(0.5F) - r.x, floor_y + Splat(0.5F) - r.y);
+    return {depths.stored, depths.tested, hn::RebindMask(d, hn::And(held_i == i, held_j == j))};
   }
 
   [[nodiscard]] HWY_INLINE FloatVector Outside() const { return Splat(test_.outside_is_lit ? 1.0F : 0.0F); }

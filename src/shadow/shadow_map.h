@@ -53,6 +53,12 @@ struct ShadowMapTest {
   InstructionSet instruction_set = InstructionSet::scalar;
 };
 
+/// `maps` must outlive the result; all else that a look-up needs is copied from the planned light's settings.
+ShadowMapTest make_shadow_map_test(const light::PlannedLight& planned,
+                                   std::span<const std::shared_ptr<DepthMap>> maps, const frame::Frame& frame,
+                                   const raster::RasterView::Ray& ray, int samples_per_pixel,
+                                   InstructionSet set);
+
 class ShadowMap final : public ShadowTechnique {
  public:
   ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
