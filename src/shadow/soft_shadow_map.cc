@@ -12,16 +12,20 @@ void copy(const glm::dvec3& from, float* to) {
   for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
 }
 
+constexpr int kInnerTaps = TapPattern::kSearchTaps - TapPattern::kRimTaps;
+
 // Vogel's spiral: each point a golden angle further than the one before; with radii √k they share out the disc's area
 // evenly.
 TapPattern make_disc_pattern() {
   const double golden_angle = kPi * (3 - std::sqrt(5.0));
   TapPattern pattern{};
   for (int k = 0; k < TapPattern::kSearchTaps; ++k) {
-    const double radius = k / (TapPattern::kSearchTaps - 0.5);
+    const double radius = std::min(k / static_cast<double>(kInnerTaps), 1.0);
     pattern.search_size[k] = static_cast<float>(radius);
-    pattern.search_x[k] = static_cast<float>(radius * cosine(k * golden_angle));
-    pattern.search_y[k] = static_cast<float>(radius * sine(k * golden_angle));
+    const double angle =
+        k < kInnerTaps ? k * golden_angle : (k - kInnerTaps) * 2 * kPi / TapPattern::kRimTaps;
+    pattern.search_x[k] = static_cast<float>(radius * cosine(angle));
+    pattern.search_y[k] = static_cast<float>(radius * sine(angle));
   }
   for (int k = 0; k < TapPattern::kFilterTaps; ++k) {
     const double radius = std::sqrt((k + 0.5) / TapPattern::kFilterTaps);
@@ -30,6 +34,15 @@ TapPattern make_disc_pattern() {
     pattern.filter_y[k] = static_cast<float>(radius * sine(k * golden_angle));
   }
   return pattern;
+}
+
+// Rim taps share out the square's four sides, which are 2 long.
+glm::dvec2 on_square_rim(int k) {
+  const double along = 8.0 * k / TapPattern::kRimTaps;
+  const int side = static_cast<int>(along / 2);
+  const double past_middle = along - 2 * side - 1;
+  constexpr int kNormalX[] = {0, 1, 0, -1}, kNormalY[] = {-1, 0, 1, 0};
+  return {kNormalX[side] - kNormalY[side] * past_middle, kNormalY[side] + kNormalX[side] * past_middle};
 }
 
 // Steps of the plastic number share out the square evenly (Roberts 2018).
@@ -41,13 +54,22 @@ TapPattern make_square_pattern() {
   };
   TapPattern pattern{};
   for (int k = 0; k < TapPattern::kSearchTaps; ++k) {
-    // The first in the middle.
-    const double x = k == 0 ? 0 : place(k, 1 / kPlastic);
-    const double y = k == 0 ? 0 : place(k, 1 / (kPlastic * kPlastic));
-    const double size = std::max(std::abs(x), std::abs(y));
-    pattern.search_x[k] = static_cast<float>(x * size);
-    pattern.search_y[k] = static_cast<float>(y * size);
-    pattern.search_size[k] = static_cast<float>(size * size);
+    // The first in the middle, the last about the rim.
+    double x = k == 0 ? 0 : place(k, 1 / kPlastic);
+    double y = k == 0 ? 0 : place(k, 1 / (kPlastic * kPlastic));
+    double size = std::max(std::abs(x), std::abs(y));
+    x *= size;
+    y *= size;
+    size *= size;
+    if (k >= kInnerTaps) {
+      const glm::dvec2 rim = on_square_rim(k - kInnerTaps);
+      x = rim.x;
+      y = rim.y;
+      size = 1;
+    }
+    pattern.search_x[k] = static_cast<float>(x);
+    pattern.search_y[k] = static_cast<float>(y);
+    pattern.search_size[k] = static_cast<float>(size);
   }
   for (int k = 0; k < TapPattern::kFilterTaps; ++k) {
     const double x = place(k, 1 / kPlastic);

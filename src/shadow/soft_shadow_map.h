@@ -15,8 +15,9 @@ namespace laterna::shadow {
 
 /// Where taps lie: points of a unit disc, or of the square from −1 to 1.
 struct TapPattern {
-  static constexpr int kSearchTaps = 24, kFilterTaps = 40;
-  /// Crowded toward the middle: what stands near a sample is found as well as what stands near the light.
+  static constexpr int kSearchTaps = 40, kFilterTaps = 64, kRimTaps = 16;
+  /// Crowded toward the middle, so that what stands near a sample is found as well as what stands near the light; the
+  /// last kRimTaps lie about the rim, where penumbrae begin.
   float search_x[kSearchTaps], search_y[kSearchTaps];
   float filter_x[kFilterTaps], filter_y[kFilterTaps];
   /// How large the shape must be to reach the tap: 1 at its rim.

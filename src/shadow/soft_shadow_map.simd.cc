@@ -130,21 +130,27 @@ class PenumbraReader {
     return {sum / hn::Max(count, one), count > zero, all};
   }
 
-  // The share of taps that see the light, each weighted between four texels.
-  HWY_INLINE FloatVector Filter(FloatVector rise) const {
+  // The share of the light that is seen: taps by the mean of what hides it, each weighted between four texels. Where a tap
+  // finds something of another depth, it is that depth at which the tap's point of the light would be hidden, so that is
+  // where the tap moves to: casters one above the other, near and far, are told apart.
+  HWY_INLINE FloatVector Filter(FloatVector mean_rise) const {
     const TapPattern& pattern = *test_.pattern;
     auto sum = Splat(0.0F);
     for (int tap = 0; tap < TapPattern::kFilterTaps; ++tap) {
-      const Receiver at = Moved(Splat(pattern.filter_x[tap]) * rise, Splat(pattern.filter_y[tap]) * rise);
-      sum = sum + FourTexels(at, Splat(kLeastShare * pattern.filter_size[tap]) * rise);
+      const auto a = Splat(pattern.filter_x[tap]), b = Splat(pattern.filter_y[tap]);
+      const MapReader::NearestTexel texel = reader_.FindNearest(Moved(a * mean_rise, b * mean_rise));
+      const auto is_before = hn::AndNot(IsLit(texel.stored, texel.tested, bias_), texel.is_inside);
+      const auto its_rise = hn::Max(texel.stored - receiver_.q, Splat(0.0F));
+      const auto rise = hn::IfThenElse(is_before, its_rise, mean_rise);
+      sum = sum + FourTexels(Moved(a * rise, b * rise), Splat(kLeastShare * pattern.filter_size[tap]) * rise);
     }
     return sum * Splat(1.0F / TapPattern::kFilterTaps);
   }
 
  private:
   // What rises by less than this share of what a tap needs to hide its point of the light does not hide it: a wall beside
-  // the sample, which the map shows near by, but which stands in the way of no ray. Not all of it is asked for, for the
-  // casters' depths differ from their mean, by which taps are placed.
+  // the sample, which the map shows near by, but which stands in the way of no ray. Not all of it is asked for, for
+  // casters slope.
   static constexpr float kLeastShare = 0.5F;
 
   HWY_INLINE FloatVector FourTexels(const Receiver& at, FloatVector least_rise) const {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 
 #include "reference/picture_probes.h"
 #include "reference/shapes.h"
@@ -78,7 +79,7 @@ std::vector<float> soft_truth(const Scene& scene, const View& camera, const Rend
   for (int k = 0; k < points; ++k) {
     glm::dmat4 place = scene.nodes[static_cast<std::size_t>(node)].parent_from_node;
     move(place, light, even(k));
-    renderer.set_transform(node, place).value();
+    if (!renderer.set_transform(node, place)) throw std::runtime_error("the light cannot be moved");
     const LayeredImage image = render(renderer, camera, hard);
     const std::span<const float> alpha = values_of(image, "visibility." + name);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += alpha[i];
