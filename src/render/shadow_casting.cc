@@ -4,6 +4,7 @@
 #include "shadow/ray_traced.h"
 #include "shadow/shadow_map.h"
 #include "shadow/soft_shadow_map.h"
+#include "shadow/variance_shadow_map.h"
 
 namespace laterna::render {
 
@@ -34,6 +35,8 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light:
       return make_exact(planned);
     case ShadowTechnique::pcss:
       return make_soft_map(planned, index);
+    case ShadowTechnique::variance:
+      return make_variance_map(planned, index);
     case ShadowTechnique::raytraced:
       return std::make_unique<shadow::RayTracedShadow>(planned, context_.ray_scene());
     default:
@@ -93,6 +96,17 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_soft_map(const ligh
   auto technique = std::make_unique<shadow::SoftShadowMap>(
       planned, maps, context_.frame, context_.camera.homogeneous_ray(), context_.settings.samples,
       context_.instruction_set, context_.pool);
+  report_memory(planned, maps, technique->memory_bytes());
+  return technique;
+}
+
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_variance_map(const light::PlannedLight& planned,
+                                                                          std::size_t index) {
+  const DepthMaps maps = find_maps(planned, index, false);
+  if (!complete(maps)) return nullptr;
+  auto technique = std::make_unique<shadow::VarianceShadowMap>(planned, maps, context_.frame,
+                                                               context_.camera.homogeneous_ray(),
+                                                               context_.instruction_set, context_.pool);
   report_memory(planned, maps, technique->memory_bytes());
   return technique;
 }

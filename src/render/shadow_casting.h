@@ -49,6 +49,8 @@ class ShadowCasting {
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_exact(const light::PlannedLight& planned);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_soft_map(const light::PlannedLight& planned,
                                                                        std::size_t index);
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_variance_map(const light::PlannedLight& planned,
+                                                                           std::size_t index);
   // The light's maps; their tiles are drawn when asked for.
   [[nodiscard]] DepthMaps find_maps(const light::PlannedLight& planned, std::size_t index,
                                     bool keeps_triangles);
