@@ -10,24 +10,12 @@
 
 #include "base/vectors-inl.h"
 #include "shadow/moment_map.h"
+#include "shadow/ray_length-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace laterna::shadow::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
-
-// Length of the rays through places (x, y) of a map, as multiples of the distance along its axis.
-HWY_INLINE FloatVector RayLength(const raster::RasterView& view, FloatVector x, FloatVector y) {
-  const auto across = x - Splat(static_cast<float>(view.origin_x)),
-             down = y - Splat(static_cast<float>(view.origin_y));
-  const auto along = [&](int k) HWY_ATTR {
-    return Splat(static_cast<float>(view.direction_0[k])) +
-           Splat(static_cast<float>(view.direction_x[k])) * across +
-           Splat(static_cast<float>(view.direction_y[k])) * down;
-  };
-  const auto a = along(0), b = along(1), c = along(2);
-  return hn::Sqrt(a * a + b * b + c * c);
-}
 
 // `q` is a reversed depth at (x, y), or kNothingSeen. Between −1 and 1.
 HWY_INLINE FloatVector MeasuredDepth(const DepthMeasure& measure, const raster::RasterView& view,

@@ -33,9 +33,8 @@ BoundDepthMap bind(const DepthMap& map, const raster::RasterView::Ray& ray) {
 }  // namespace
 
 ShadowFilter filter_of(const ShadowSettings& settings) {
-  const bool has_manual_bias = settings.constant_bias || settings.slope_bias;
-  return has_manual_bias && settings.filter == ShadowFilter::refined ? ShadowFilter::bilinear
-                                                                     : settings.filter;
+  const bool is_plain = settings.constant_bias || settings.slope_bias || settings.soft_edge > 0;
+  return is_plain && settings.filter == ShadowFilter::refined ? ShadowFilter::bilinear : settings.filter;
 }
 
 ShadowBias bias_of(const ShadowSettings& settings) {
@@ -66,6 +65,9 @@ ShadowMapTest make_shadow_map_test(const light::PlannedLight& planned,
   }
   test.kernel = planned.settings.kernel;
   test.outside_is_lit = planned.settings.outside_is_lit;
+  // Parallel light has no distance.
+  test.is_radial = planned.settings.depth == ShadowDepth::radial && !test.maps[0].is_orthographic;
+  test.soft_edge = static_cast<float>(planned.settings.soft_edge);
   test.instruction_set = set;
   return test;
 }
