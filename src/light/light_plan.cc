@@ -213,7 +213,7 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
       case ShadowTechnique::map:
       case ShadowTechnique::pcss:
       case ShadowTechnique::variance:
-        planned.shadow_views = shadow_views(placed, frame, planned.settings, planned.technique);
+        planned.shadow_views = shadow_views(*planned.placed, frame, planned.settings, planned.technique);
         break;
       default:
         break;
