@@ -107,7 +107,7 @@ TEST(ShadowMapOptions, ASoftEdgeIsASmoothStepOfTheWidthThatWasSet) {
     Scene scene = leaning_board(shadow);
     scene.nodes[1].visible = false;
     const View camera = {Pose::look_at({0.75, 3, 0}, {0.75, 0, 0}, {0, 0, -1}).value(),
-                         Projection::orthographic(1.5, 0.01, 0, 5)};
+                         Projection::orthographic(0.75, 0.01, 0, 5)};
     RenderSettings settings = test_settings(600, 4);
     settings.layers = {Layer::visibility};
     const LayeredImage image = render(make_renderer(std::move(scene)), camera, settings);
