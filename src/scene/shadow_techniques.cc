@@ -5,19 +5,15 @@
 namespace laterna {
 namespace {
 
-constexpr std::array<TechniqueDescription, 4> kTechniques = {{
-    {ShadowTechnique::none, "none", "light passes through everything"},
-    {ShadowTechnique::map, "map",
-     "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
-    {ShadowTechnique::exact, "exact",
-     "hard shadows to the last bit: every sample against every triangle in its way, without a map"},
-constexpr std::array<TechniqueDescription, 5> kTechniques = {{
+constexpr std::array<TechniqueDescription, 6> kTechniques = {{
     {ShadowTechnique::none, "none", "light passes through everything"},
     {ShadowTechnique::map, "map",
      "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
     {ShadowTechnique::pcss, "pcss",
      "soft shadows by the light's size: maps filtered as wide as each penumbra"},
     {ShadowTechnique::variance, "variance", "maps of moments of depth, filtered like textures: smooth edges"},
+    {ShadowTechnique::exact, "exact",
+     "hard shadows to the last bit: every sample against every triangle in its way, without a map"},
     {ShadowTechnique::raytraced, "raytraced",
      "hard shadows by rays: slow, exact, the reference for the others"},
 }};
