@@ -161,6 +161,8 @@ struct Light {
 
 /// Why a light of this kind cannot have its shadows found in this way, and what can; empty where it can.
 std::string find_fault(ShadowTechnique technique, const Light& light);
+/// The same of what its depths are compared by.
+std::string find_fault(ShadowDepth depth, const Light& light);
 
 // ---------------------------------------------------------------------------------------------- the scene
 

@@ -36,8 +36,16 @@ enum class ShadowFilter : std::uint8_t {
   nearest,   ///< one texel: a staircase
   bilinear,  ///< four texels, weighted
   percentage_closer,  ///< kernel × kernel nearest texels, all of one weight
+  averaged_depths,  ///< the mean of kernel × kernel depths, compared once: wrong, kept to show why (row 101)
 };
+/// Which depth is compared: along the map's axis, or the length of the ray from the light (row 61).
+enum class ShadowDepth : std::uint8_t { planar, radial };
+/// What a variance map holds: moments of depth, or of two exponentials of it, which lets far less light bleed through.
+enum class ShadowMoments : std::uint8_t { variance, exponential };
 enum class CasterFaces : std::uint8_t { both, back_only };
+
+/// Largest ShadowSettings::blur.
+inline constexpr double kMaxShadowBlur = 64;
 
 /// One light's shadows. The defaults need no tuning: bias follows from the receiver's plane and the texel's footprint.
 /// A manual bias, constant, by slope or both, takes its place, and `refined` is then read as `bilinear`.
@@ -47,11 +55,21 @@ struct ShadowSettings {
   // Shadow maps.
   int resolution = 0;  ///< texels per side of a map (per cube face); 0: 2048, point lights 1024
   ShadowFilter filter = ShadowFilter::refined;
-  int kernel = 3;                       ///< percentage_closer: kernel × kernel nearest taps, 2…9
+  int kernel = 3;  ///< percentage_closer and averaged_depths: kernel × kernel nearest taps, 2…9
   std::optional<double> constant_bias;  ///< metres toward the light; overrides the automatic bias
   std::optional<double> slope_bias;     ///< texel footprints per unit of depth slope; overrides likewise
   CasterFaces caster_faces = CasterFaces::both;
   bool outside_is_lit = true;  ///< beyond the map's sides or far plane
+  ShadowDepth depth = ShadowDepth::planar;
+  /// Metres that a caster must stand before a surface to darken it wholly; less darkens it by a smooth step (row 87).
+  /// Where set, `refined` is read as `bilinear`.
+  double soft_edge = 0;
+
+  // Variance maps.
+  ShadowMoments moments = ShadowMoments::exponential;
+  /// Cuts off what bleeds through, 0…1: of α, what is below is dark, and the rest is stretched to 0…1.
+  float bleeding_reduction = 0.2F;
+  float blur = 2;  ///< texels that the moments are averaged over to each side, 0…kMaxShadowBlur
 
   // How dark: physical unless set. With α the fraction that arrives, ambient + (1 − ambient) α takes its place (row 91,
   // GL_ARB_shadow_ambient), and of each colour 1 − opacity (1 − color) (1 − that) is seen (row 34).

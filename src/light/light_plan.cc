@@ -24,6 +24,12 @@ constexpr double kSmallestNear = 1e-5;
 // Cones wider than this are drawn on the faces of a cube: one plane would spend its texels on the rim.
 constexpr double kWidestSingleView = 75;  // degrees of half angle
 
+// Faces of cubes see this share of their side more to each side for `pcss`, whose filters are as wide as penumbrae; what
+// lies beyond is not looked for.
+constexpr int kSoftBorder = 8;
+// And this many texels for the coarser levels of `variance`.
+constexpr int kMipBorder = 8;
+
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   void include(double centre, double reach) {
@@ -121,13 +127,19 @@ double far_plane(const Light& light) {
   return ends ? light.range : std::numeric_limits<double>::infinity();
 }
 
+// Texels beyond a cube face's own directions, for filters at its edges.
+int face_border(const ShadowSettings& settings, ShadowTechnique technique) {
+  const int taps = 2 + settings.kernel / 2;
+  if (technique == ShadowTechnique::pcss) return std::max(taps, settings.resolution / kSoftBorder);
+  if (technique == ShadowTechnique::variance)
+    return taps + kMipBorder + static_cast<int>(std::ceil(settings.blur));
+  return taps;
+}
+
 // +X, −X, +Y, −Y, +Z, −Z of the world; up is chosen to be no neighbour's direction of view.
-std::vector<ShadowView> cube_views(const Pose& pose, const ShadowSettings& settings, double near,
-                                   double far) {
-  // Texels beyond a face's own directions, for filters at its edges.
-  const int border = 2 + settings.kernel / 2;
-  const int side = settings.resolution + 2 * border;
-  const double half = static_cast<double>(side) / settings.resolution;
+std::vector<ShadowView> cube_views(const Pose& pose, int resolution, int border, double near, double far) {
+  const int side = resolution + 2 * border;
+  const double half = static_cast<double>(side) / resolution;
   std::vector<ShadowView> views;
   for (int face = 0; face < 6; ++face) {
     glm::dvec3 gaze(0);
@@ -145,7 +157,7 @@ std::vector<ShadowView> cube_views(const Pose& pose, const ShadowSettings& setti
 }
 
 std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& frame,
-                                     const ShadowSettings& settings) {
+                                     const ShadowSettings& settings, ShadowTechnique technique) {
   const Light& light = *placed.light;
   switch (light.type) {
     case LightType::directional:
@@ -165,7 +177,8 @@ std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& fra
     case LightType::point:
       break;
   }
-  return cube_views(placed.pose, settings, near_plane(placed, frame), far_plane(light));
+  return cube_views(placed.pose, settings.resolution, face_border(settings, technique),
+                    near_plane(placed, frame), far_plane(light));
 }
 
 }  // namespace
@@ -196,7 +209,15 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
       planned.settings.resolution =
           placed.light->type == LightType::point ? kDefaultFaceResolution : kDefaultResolution;
     }
-    if (planned.technique == ShadowTechnique::map) planned = with_shadow_map(std::move(planned), frame);
+    switch (planned.technique) {
+      case ShadowTechnique::map:
+      case ShadowTechnique::pcss:
+      case ShadowTechnique::variance:
+        planned.shadow_views = shadow_views(*planned.placed, frame, planned.settings, planned.technique);
+        break;
+      default:
+        break;
+    }
     plan.lights.push_back(std::move(planned));
   }
   return plan;
@@ -204,7 +225,7 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
 
 PlannedLight with_shadow_map(PlannedLight planned, const Frame& frame) {
   planned.technique = ShadowTechnique::map;
-  planned.shadow_views = shadow_views(*planned.placed, frame, planned.settings);
+  planned.shadow_views = shadow_views(*planned.placed, frame, planned.settings, ShadowTechnique::map);
   return planned;
 }
 

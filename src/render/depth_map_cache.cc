@@ -36,12 +36,10 @@ shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowV
   return map;
 }
 
-namespace {
-
-void draw_tiles(const DrawContext& context, shadow::DepthMap& map,
+void draw_tiles(shadow::DepthMap& map, const TaskPool& pool, StageTimes& times,
                 const std::function<bool()>& asks_to_stop) {
-  std::vector<double> raster_ms(static_cast<std::size_t>(context.pool.threads()));
-  context.pool.for_each(map.tile_count(), [&](std::size_t i, int worker) {
+  std::vector<double> raster_ms(static_cast<std::size_t>(pool.threads()));
+  pool.for_each(map.tile_count(), [&](std::size_t i, int worker) {
     if (asks_to_stop && asks_to_stop()) return;
     Stopwatch watch;
     watch.start();
@@ -49,15 +47,13 @@ void draw_tiles(const DrawContext& context, shadow::DepthMap& map,
     raster_ms[static_cast<std::size_t>(worker)] += watch.lap_ms();
   });
   map.rest();
-  for (const double ms : raster_ms) context.times[Stage::raster] += ms;
+  for (const double ms : raster_ms) times[Stage::raster] += ms;
 }
-
-}  // namespace
 
 shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
                                 CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn) {
   shadow::DepthMap map = make_depth_map(context, shadow_view, faces, keeps_triangles, std::move(outworn));
-  draw_tiles(context, map, nullptr);
+  draw_tiles(map, context.pool, context.times, nullptr);
   return map;
 }
 
@@ -73,7 +69,7 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
     if (working_bytes + bytes <= kMaxWorkingBytes) {
       working_bytes += bytes;
     } else {
-      draw_tiles(context, map, asks_to_stop);
+      draw_tiles(map, context.pool, context.times, asks_to_stop);
     }
   };
   if (!anew && !entry.maps.empty() && entry.key == key) {

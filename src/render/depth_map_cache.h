@@ -46,6 +46,11 @@ shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowV
 shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
                                 CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn = {});
 
+/// Draws every tile that is not drawn yet, and lets the map rest. `asks_to_stop` is called between tiles, where set; once it
+/// says so, tiles may be missing.
+void draw_tiles(shadow::DepthMap& map, const TaskPool& pool, StageTimes& times,
+                const std::function<bool()>& asks_to_stop);
+
 class DepthMapCache {
  public:
   struct Found {

@@ -3,7 +3,8 @@
 #include "shadow/exact_shadow.h"
 #include "shadow/ray_traced.h"
 #include "shadow/shadow_map.h"
-#include "shadow/shadow_volume.h"
+#include "shadow/soft_shadow_map.h"
+#include "shadow/variance_shadow_map.h"
 
 namespace laterna::render {
 
@@ -30,10 +31,12 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light:
   switch (planned.technique) {
     case ShadowTechnique::map:
       return make_map(planned, index);
-    case ShadowTechnique::volume:
-      return make_volume(planned);
     case ShadowTechnique::exact:
       return make_exact(planned);
+    case ShadowTechnique::pcss:
+      return make_soft_map(planned, index);
+    case ShadowTechnique::variance:
+      return make_variance_map(planned, index);
     case ShadowTechnique::raytraced:
       return std::make_unique<shadow::RayTracedShadow>(planned, context_.ray_scene());
     default:
@@ -41,45 +44,79 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light:
   }
 }
 
+DepthMaps ShadowCasting::find_maps(const light::PlannedLight& planned, std::size_t index,
+                                   bool keeps_triangles) {
+  ProgressReport& progress = context_.progress;
+  const DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces, keeps_triangles,
+                           context_.casters_revision};
+  const DepthMapCache::Found found = context_.maps.find(
+      index, key,
+      {context_.frame, context_.pool, context_.bins, context_.instruction_set,
+       context_.statistics.map_stages},
+      !context_.settings.keep_shadow_maps, working_bytes_, [&progress] { return progress.asks_to_stop(); });
+  context_.statistics.maps_drawn += found.made;
+  context_.statistics.maps_kept += static_cast<int>(found.maps.size()) - found.made;
+  return found.maps;
+}
+
+bool ShadowCasting::complete(const DepthMaps& maps) {
+  ProgressReport& progress = context_.progress;
+  const auto asks_to_stop = [&progress] { return progress.asks_to_stop(); };
+  for (const auto& map : maps) {
+    if (!map->is_complete()) draw_tiles(*map, context_.pool, context_.statistics.map_stages, asks_to_stop);
+    if (!map->is_complete()) return false;
+  }
+  return true;
+}
+
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::PlannedLight& planned,
                                                                  std::size_t index) {
   ProgressReport& progress = context_.progress;
-  const auto asks_to_stop = [&progress] { return progress.asks_to_stop(); };
-  const DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces,
-                           planned.settings.filter == ShadowFilter::refined, context_.casters_revision};
-  const DepthMapCache::Found found =
-      context_.maps.find(index, key,
-                         {context_.frame, context_.pool, context_.bins, context_.instruction_set,
-                          context_.statistics.map_stages},
-                         !context_.settings.keep_shadow_maps, working_bytes_, asks_to_stop);
-  context_.statistics.maps_drawn += found.made;
-  context_.statistics.maps_kept += static_cast<int>(found.maps.size()) - found.made;
-  std::size_t bytes = 0;
-  for (const auto& map : found.maps) bytes += map->memory_bytes();
-  report_memory(planned, static_cast<int>(found.maps.size()), bytes);
-  return std::make_unique<shadow::ShadowMap>(planned, found.maps, context_.frame,
-                                             context_.camera.homogeneous_ray(), context_.settings.samples,
-                                             context_.instruction_set, asks_to_stop);
+  const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
+  report_memory(planned, maps, 0);
+  return std::make_unique<shadow::ShadowMap>(planned, maps, context_.frame, context_.camera.homogeneous_ray(),
+                                             context_.settings.samples, context_.instruction_set,
+                                             [&progress] { return progress.asks_to_stop(); });
 }
 
 // The tree is all lights': the first is said to hold it.
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_exact(const light::PlannedLight& planned) {
   std::shared_ptr<const shadow::CasterTree> tree = context_.caster_tree(shadow::CasterTree::Casters::opaque);
-  report_memory(planned, 0, has_reported_tree_ ? 0 : tree->memory_bytes());
+  report_memory(planned, {}, has_reported_tree_ ? 0 : tree->memory_bytes());
   has_reported_tree_ = true;
   return std::make_unique<shadow::ExactShadow>(planned, context_.frame, std::move(tree),
                                                context_.instruction_set);
 }
 
-std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_volume(const light::PlannedLight& planned) {
-  auto volume = std::make_unique<shadow::ShadowVolume>(planned, context_.frame, context_.camera,
-                                                       context_.pool, context_.instruction_set);
-  report_memory(planned, 0, volume->memory_bytes());
-  return volume;
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_soft_map(const light::PlannedLight& planned,
+                                                                      std::size_t index) {
+  if (!planned.placed->light->source.has_size()) return make_map(planned, index);
+  const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
+  if (!complete(maps)) return nullptr;
+  auto technique = std::make_unique<shadow::SoftShadowMap>(
+      planned, maps, context_.frame, context_.camera.homogeneous_ray(), context_.settings.samples,
+      context_.instruction_set, context_.pool);
+  report_memory(planned, maps, technique->memory_bytes());
+  return technique;
 }
 
-void ShadowCasting::report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes) {
-  context_.statistics.shadow_memory.push_back({planned.placed->light->name, maps, bytes});
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_variance_map(const light::PlannedLight& planned,
+                                                                          std::size_t index) {
+  const DepthMaps maps = find_maps(planned, index, false);
+  if (!complete(maps)) return nullptr;
+  auto technique = std::make_unique<shadow::VarianceShadowMap>(planned, maps, context_.frame,
+                                                               context_.camera.homogeneous_ray(),
+                                                               context_.instruction_set, context_.pool);
+  report_memory(planned, maps, technique->memory_bytes());
+  return technique;
+}
+
+void ShadowCasting::report_memory(const light::PlannedLight& planned, const DepthMaps& maps,
+                                  std::size_t more_bytes) {
+  std::size_t bytes = more_bytes;
+  for (const auto& map : maps) bytes += map->memory_bytes();
+  context_.statistics.shadow_memory.push_back(
+      {planned.placed->light->name, static_cast<int>(maps.size()), bytes});
 }
 
 }  // namespace laterna::render

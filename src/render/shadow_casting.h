@@ -47,8 +47,16 @@ class ShadowCasting {
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_map(const light::PlannedLight& planned,
                                                                   std::size_t index);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_exact(const light::PlannedLight& planned);
-  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_volume(const light::PlannedLight& planned);
-  void report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes);
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_soft_map(const light::PlannedLight& planned,
+                                                                       std::size_t index);
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_variance_map(const light::PlannedLight& planned,
+                                                                           std::size_t index);
+  // The light's maps; their tiles are drawn when asked for.
+  [[nodiscard]] DepthMaps find_maps(const light::PlannedLight& planned, std::size_t index,
+                                    bool keeps_triangles);
+  // All tiles at once. False: the caller asks to stop, and there is nothing to be made of the maps.
+  [[nodiscard]] bool complete(const DepthMaps& maps);
+  void report_memory(const light::PlannedLight& planned, const DepthMaps& maps, std::size_t more_bytes);
 
   CastingContext context_;
   std::size_t working_bytes_ = 0;  // of the picture's maps so far

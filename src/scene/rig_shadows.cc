@@ -25,12 +25,17 @@ void read_filter(JsonObject& shadow, ShadowSettings& settings) {
           .choice<ShadowFilter>("filter", {{"refined", ShadowFilter::refined},
                                            {"nearest", ShadowFilter::nearest},
                                            {"bilinear", ShadowFilter::bilinear},
-                                           {"percentage_closer", ShadowFilter::percentage_closer}})
+                                           {"percentage_closer", ShadowFilter::percentage_closer},
+                                           {"averaged_depths", ShadowFilter::averaged_depths}})
           .value_or(settings.filter);
   if (const std::optional<std::uint64_t> kernel = shadow.whole("kernel", 2, 9)) {
     settings.kernel = static_cast<int>(*kernel);
-    if (settings.filter != ShadowFilter::percentage_closer)
-      shadow.error("kernel", "has an effect only with \"filter\": \"percentage_closer\" beside it");
+    if (settings.filter != ShadowFilter::percentage_closer &&
+        settings.filter != ShadowFilter::averaged_depths) {
+      shadow.error(
+          "kernel",
+          "has an effect only with \"filter\": \"percentage_closer\" or \"averaged_depths\" beside it");
+    }
   }
 }
 
@@ -45,6 +50,26 @@ void read_map(JsonObject& shadow, ShadowSettings& settings) {
                               .value_or(CasterFaces::both);
   settings.outside_is_lit =
       shadow.choice<bool>("outside", {{"lit", true}, {"shadowed", false}}).value_or(true);
+}
+
+void read_depth(JsonObject& shadow, Light& light) {
+  light.shadow.depth =
+      shadow.choice<ShadowDepth>("depth", {{"planar", ShadowDepth::planar}, {"radial", ShadowDepth::radial}})
+          .value_or(ShadowDepth::planar);
+  if (std::string fault = find_fault(light.shadow.depth, light); !fault.empty())
+    shadow.error("depth", std::move(fault));
+  light.shadow.soft_edge = shadow.number("soft_edge", kLength).value_or(0);
+}
+
+void read_variance(JsonObject& shadow, ShadowSettings& settings) {
+  settings.moments = shadow
+                         .choice<ShadowMoments>("moments", {{"variance", ShadowMoments::variance},
+                                                            {"exponential", ShadowMoments::exponential}})
+                         .value_or(settings.moments);
+  if (const auto given = shadow.number("bleeding_reduction", kZeroToOne))
+    settings.bleeding_reduction = static_cast<float>(*given);
+  if (const auto given = shadow.number("blur", {0, kMaxShadowBlur, false, false}))
+    settings.blur = static_cast<float>(*given);
 }
 
 void read_darkness(JsonObject& shadow, ShadowSettings& settings) {
@@ -75,6 +100,8 @@ void read_rig_shadow(const JsonDocument& json, JsonObject& object, FaultList& fa
   JsonObject shadow(json, *value, faults);
   read_technique(shadow, light);
   read_map(shadow, light.shadow);
+  read_depth(shadow, light);
+  read_variance(shadow, light.shadow);
   read_darkness(shadow, light.shadow);
   shadow.report_unknown_members("a shadow");
 }

@@ -5,12 +5,13 @@
 namespace laterna {
 namespace {
 
-constexpr std::array<TechniqueDescription, 5> kTechniques = {{
+constexpr std::array<TechniqueDescription, 6> kTechniques = {{
     {ShadowTechnique::none, "none", "light passes through everything"},
     {ShadowTechnique::map, "map",
      "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
-    {ShadowTechnique::volume, "volume",
-     "shadow volumes counted along each line of sight: slow, exact, a second reference"},
+    {ShadowTechnique::pcss, "pcss",
+     "soft shadows by the light's size: maps filtered as wide as each penumbra"},
+    {ShadowTechnique::variance, "variance", "maps of moments of depth, filtered like textures: smooth edges"},
     {ShadowTechnique::exact, "exact",
      "hard shadows to the last bit: every sample against every triangle in its way, without a map"},
     {ShadowTechnique::raytraced, "raytraced",
@@ -22,11 +23,21 @@ constexpr std::array<TechniqueDescription, 5> kTechniques = {{
 std::span<const TechniqueDescription> list_techniques() { return kTechniques; }
 
 std::string find_fault(ShadowTechnique technique, const Light& light) {
-  static_cast<void>(light);
+  if (technique == ShadowTechnique::pcss && light.type == LightType::projector &&
+      light.projection.is_orthographic && light.source.has_size()) {
+    return "\"pcss\" cannot serve a parallel projector with a size: all its light goes one way";
+  }
   for (const TechniqueDescription& known : kTechniques) {
     if (known.technique == technique) return "";
   }
   return "there is no such shadow technique";
+}
+
+std::string find_fault(ShadowDepth depth, const Light& light) {
+  const bool is_parallel = light.type == LightType::directional ||
+                           (light.type == LightType::projector && light.projection.is_orthographic);
+  if (depth != ShadowDepth::radial || !is_parallel) return "";
+  return "radial depths are distances from the light, and parallel light comes from nowhere: use \"planar\"";
 }
 
 }  // namespace laterna

@@ -315,6 +315,8 @@ void Validator::check_light(const Light& light, const std::string& place) {
   }
   check_source(light, place + ".source");
   check_shadow(light.shadow, place + ".shadow");
+  if (std::string message = find_fault(light.shadow.depth, light); !message.empty())
+    fault(place + ".shadow.depth", std::move(message));
   if (light.shadow.technique) {
     if (std::string message = find_fault(*light.shadow.technique, light); !message.empty())
       fault(place + ".shadow.technique", std::move(message));
@@ -337,7 +339,7 @@ void Validator::check_source(const Light& light, const std::string& place) {
 }
 
 void Validator::check_shadow(const ShadowSettings& shadow, const std::string& place) {
-  check_enumerator(place + ".filter", shadow.filter, ShadowFilter::percentage_closer);
+  check_enumerator(place + ".filter", shadow.filter, ShadowFilter::averaged_depths);
   check_enumerator(place + ".caster_faces", shadow.caster_faces, CasterFaces::back_only);
   if (shadow.resolution < 0 || shadow.resolution > kMaxShadowResolution) {
     fault(place + ".resolution", fmt::format("expected from 1 to {}, or 0 for the default, got {}",
@@ -347,6 +349,11 @@ void Validator::check_shadow(const ShadowSettings& shadow, const std::string& pl
     fault(place + ".kernel",
           fmt::format("expected from {} to {}, got {}", kLeastKernel, kMostKernel, shadow.kernel));
   }
+  check_enumerator(place + ".depth", shadow.depth, ShadowDepth::radial);
+  check_enumerator(place + ".moments", shadow.moments, ShadowMoments::exponential);
+  check_number(place + ".soft_edge", shadow.soft_edge, 0, kMaxCoordinate);
+  check_number(place + ".bleeding_reduction", shadow.bleeding_reduction, 0, 1);
+  check_number(place + ".blur", shadow.blur, 0, kMaxShadowBlur);
   check_color(place + ".color", shadow.color, 1);
   check_number(place + ".opacity", shadow.opacity, 0, 1);
   check_number(place + ".ambient", shadow.ambient, 0, 1);

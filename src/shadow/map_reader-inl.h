@@ -11,6 +11,7 @@
 #include "base/vectors-inl.h"
 #include "shadow/depth_comparison-inl.h"
 #include "shadow/projected_view-inl.h"
+#include "shadow/ray_length-inl.h"
 #include "shadow/shadow_map.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -110,15 +111,25 @@ class MapReader {
     return r;
   }
 
-  // α of plain filters.
-  HWY_INLINE FloatVector Arrival(Receiver r) const {
+  // How far behind what a texel holds a sample may lie and still be lit, as reversed depth.
+  HWY_INLINE FloatVector Bias(const Receiver& r) const {
     // Back sides are in the shadow of their own front, if of anything: there is no self-shadowing to prevent.
     const ShadowBias& b = test_.bias;
     const auto slope = hn::Abs(r.q_dx) + hn::Abs(r.q_dy);
     const auto metres = Splat(b.metres) * (bound_.is_orthographic ? Splat(1.0F) : r.q * r.q);
-    const auto bias = r.rounding + metres +
-                      hn::IfThenElseZero(r.faces_light, Splat(b.texels) * r.texel + Splat(b.slope) * slope);
-    if (!b.uses_receiver_plane) r.q_dx = r.q_dy = Splat(0.0F);
+    return r.rounding + metres +
+           hn::IfThenElseZero(r.faces_light, Splat(b.texels) * r.texel + Splat(b.slope) * slope);
+  }
+  // The receiver as it is compared: a manual bias knows no plane.
+  HWY_INLINE Receiver Compared(Receiver r) const {
+    if (!test_.bias.uses_receiver_plane) r.q_dx = r.q_dy = Splat(0.0F);
+    return r;
+  }
+
+  // α of plain filters.
+  HWY_INLINE FloatVector Arrival(Receiver r) const {
+    const auto bias = Bias(r);
+    r = Compared(r);
     FloatVector lit;
     switch (test_.filter) {
       case ShadowFilter::nearest:
@@ -126,6 +137,9 @@ class MapReader {
         break;
       case ShadowFilter::percentage_closer:
         lit = PercentageCloser(r, bias, test_.kernel);
+        break;
+      case ShadowFilter::averaged_depths:
+        lit = AveragedDepths(r, bias, test_.kernel);
         break;
       default:
         lit = Bilinear(r, bias);
@@ -168,6 +182,23 @@ class MapReader {
     return {hn::GatherIndex(FloatTag(), map_.texels(), index), r.q + (r.q_dx * dx + r.q_dy * dy)};
   }
 
+  // The texel in which the receiver lies.
+  struct NearestTexel {
+    FloatVector stored, tested;
+    FloatMask is_inside;
+  };
+  HWY_INLINE NearestTexel FindNearest(const Receiver& r) const {
+    const FloatTag d;
+    const IntTag di;
+    const auto floor_x = hn::Floor(Held(r.x)), floor_y = hn::Floor(Held(r.y));
+    const auto i = hn::ConvertTo(di, floor_x), j = hn::ConvertTo(di, floor_y);
+    const auto held_i = hn::Min(hn::Max(i, hn::Zero(di)), SplatInt(map_.width() - 1)),
+               held_j = hn::Min(hn::Max(j, hn::Zero(di)), SplatInt(map_.height() - 1));
+    const Depths depths = DepthsAt(r, ColumnPart(held_i) + RowPart(held_j, map_.tiles_x()),
+                                   floor_x + Splat(0.5F) - r.x, floor_y + Splat(0.5F) - r.y);
+    return {depths.stored, depths.tested, hn::RebindMask(d, hn::And(held_i == i, held_j == j))};
+  }
+
   [[nodiscard]] HWY_INLINE FloatVector Outside() const { return Splat(test_.outside_is_lit ? 1.0F : 0.0F); }
   // Where the map has anything to say. What lies outside is lit texel by texel unless told otherwise.
   [[nodiscard]] HWY_INLINE FloatMask Covers(const Receiver& r) const {
@@ -182,6 +213,28 @@ class MapReader {
   [[nodiscard]] const DepthMap& map() const { return map_; }
 
  private:
+  // 1 where a texel holds nothing nearer than the receiver, 0 where it does; with a soft edge something between where that
+  // is not far nearer. (dx, dy): from the sample to the texel's centre.
+  HWY_INLINE FloatVector LitShare(const Receiver& r, Depths depths, FloatVector bias, FloatVector dx,
+                                  FloatVector dy) const {
+    if (test_.is_radial) {
+      const auto one = Splat(1.0F);
+      const auto shorter = one / RayLength(map_.view(), r.x + dx, r.y + dy);
+      // A receiver without a plane is compared by its own distance.
+      const auto own = test_.bias.uses_receiver_plane ? shorter : one / RayLength(map_.view(), r.x, r.y);
+      depths = {depths.stored * shorter, depths.tested * own};
+      bias = bias * own;
+    }
+    const auto is_lit = IsLit(depths.stored, depths.tested, bias);
+    if (test_.soft_edge <= 0) return hn::IfThenElseZero(is_lit, Splat(1.0F));
+    // Smoothstep over the metres that the caster stands before the receiver.
+    const auto nearer = depths.stored - (depths.tested + bias);
+    const auto scale =
+        bound_.is_orthographic ? Splat(1.0F) : hn::Max(depths.tested * depths.stored, Splat(1e-30F));
+    const auto t = Saturate(hn::Max(nearer, Splat(0.0F)) / (scale * Splat(test_.soft_edge)));
+    return hn::IfThenElse(is_lit, Splat(1.0F), Splat(1.0F) - t * t * (Splat(3.0F) - (t + t)));
+  }
+
   // 1 where texel (i, j), whose centre lies (dx, dy) texels from the sample, holds nothing nearer than the receiver's
   // plane has there.
   HWY_INLINE FloatVector Tap(const Receiver& r, FloatVector bias, IntVector i, IntVector j, FloatVector dx,
@@ -192,8 +245,7 @@ class MapReader {
     const auto held_i = hn::Min(hn::Max(i, zero), last_i), held_j = hn::Min(hn::Max(j, zero), last_j);
     const auto is_inside = hn::RebindMask(d, hn::And(held_i == i, held_j == j));
     const Depths depths = DepthsAt(r, ColumnPart(held_i) + RowPart(held_j, map_.tiles_x()), dx, dy);
-    const auto is_lit = IsLit(depths.stored, depths.tested, bias);
-    return hn::IfThenElse(is_inside, hn::IfThenElseZero(is_lit, Splat(1.0F)), Outside());
+    return hn::IfThenElse(is_inside, LitShare(r, depths, bias, dx, dy), Outside());
   }
 
   // Texel coordinates far outside would not fit an int.
@@ -208,9 +260,8 @@ class MapReader {
       FloatVector lit[2];
       for (int i = 0; i < 2; ++i) {
         const Depths depths = DepthsAt(r, quad.column[i] + quad.row[j], quad.dx[i], quad.dy[j]);
-        const auto is_lit = IsLit(depths.stored, depths.tested, bias);
         const auto is_inside = hn::And(quad.column_in[i], quad.row_in[j]);
-        lit[i] = hn::IfThenElse(is_inside, hn::IfThenElseZero(is_lit, Splat(1.0F)), Outside());
+        lit[i] = hn::IfThenElse(is_inside, LitShare(r, depths, bias, quad.dx[i], quad.dy[j]), Outside());
       }
       rows[j] = lit[0] + (lit[1] - lit[0]) * quad.weight_x;
     }
@@ -234,6 +285,43 @@ class MapReader {
       }
     }
     return sum / Splat(static_cast<float>(kernel * kernel));
+  }
+
+  // What not to do (row 101): the mean depth of what stands at an edge and of what lies behind it is the depth of nothing
+  // at all, and whatever lies between the two is lit or dark by chance. What the light does not see counts as far away.
+  HWY_INLINE FloatVector AveragedDepths(const Receiver& r, FloatVector bias, int kernel) const {
+    const FloatTag d;
+    const IntTag di;
+    const auto reach = Splat(0.5F * static_cast<float>(kernel - 1));
+    const auto floor_x = hn::Floor(Held(r.x - reach)), floor_y = hn::Floor(Held(r.y - reach));
+    const auto i = hn::ConvertTo(di, floor_x), j = hn::ConvertTo(di, floor_y);
+    const auto zero = hn::Zero(di);
+    auto stored = hn::Zero(d), tested = hn::Zero(d);
+    for (int row = 0; row < kernel; ++row) {
+      for (int column = 0; column < kernel; ++column) {
+        const auto x = i + SplatInt(column), y = j + SplatInt(row);
+        const auto held_x = hn::Min(hn::Max(x, zero), SplatInt(map_.width() - 1)),
+                   held_y = hn::Min(hn::Max(y, zero), SplatInt(map_.height() - 1));
+        const auto is_inside = hn::RebindMask(d, hn::And(held_x == x, held_y == y));
+        const auto dx = floor_x + Splat(static_cast<float>(column) + 0.5F) - r.x,
+                   dy = floor_y + Splat(static_cast<float>(row) + 0.5F) - r.y;
+        const Depths depths = DepthsAt(r, ColumnPart(held_x) + RowPart(held_y, map_.tiles_x()), dx, dy);
+        const auto beside =
+            Splat(test_.outside_is_lit ? map_.view().reversed_far : map_.view().reversed_near);
+        stored = stored + Averaged(hn::IfThenElse(is_inside, depths.stored, beside));
+        tested = tested + Averaged(depths.tested);
+      }
+    }
+    const auto share = Splat(1.0F / static_cast<float>(kernel * kernel));
+    const Depths mean = {Averaged(stored * share), Averaged(tested * share)};
+    const auto middle = reach + Splat(0.5F);
+    return LitShare(r, mean, bias, floor_x + middle - r.x, floor_y + middle - r.y);
+  }
+  // Reversed depth as something that is linear in metres, and back.
+  HWY_INLINE FloatVector Averaged(FloatVector depth) const {
+    const raster::RasterView& view = map_.view();
+    if (bound_.is_orthographic) return hn::Max(depth, Splat(view.reversed_far));
+    return Splat(1.0F) / hn::Max(depth, Splat(1e-20F));
   }
 
   const ShadowMapTest& test_;

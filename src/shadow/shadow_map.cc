@@ -33,9 +33,8 @@ BoundDepthMap bind(const DepthMap& map, const raster::RasterView::Ray& ray) {
 }  // namespace
 
 ShadowFilter filter_of(const ShadowSettings& settings) {
-  const bool has_manual_bias = settings.constant_bias || settings.slope_bias;
-  return has_manual_bias && settings.filter == ShadowFilter::refined ? ShadowFilter::bilinear
-                                                                     : settings.filter;
+  const bool is_plain = settings.constant_bias || settings.slope_bias || settings.soft_edge > 0;
+  return is_plain && settings.filter == ShadowFilter::refined ? ShadowFilter::bilinear : settings.filter;
 }
 
 ShadowBias bias_of(const ShadowSettings& settings) {
@@ -48,25 +47,37 @@ ShadowBias bias_of(const ShadowSettings& settings) {
   return bias;
 }
 
+ShadowMapTest make_shadow_map_test(const light::PlannedLight& planned,
+                                   std::span<const std::shared_ptr<DepthMap>> maps, const frame::Frame& frame,
+                                   const raster::RasterView::Ray& ray, int samples_per_pixel,
+                                   InstructionSet set) {
+  ShadowMapTest test;
+  for (const auto& map : maps) test.maps.push_back(bind(*map, ray));
+  test.bias = bias_of(planned.settings);
+  test.filter = filter_of(planned.settings);
+  test.frame = &frame;
+  // Several samples per pixel antialias shadows' edges by themselves.
+  test.positions = samples_per_pixel > 1 ? 1 : 5;
+  for (int i = 0; i < 4; ++i) {
+    test.ray_x[i] = static_cast<float>(ray.ray_x[i]);
+    test.ray_y[i] = static_cast<float>(ray.ray_y[i]);
+    test.q_term[i] = static_cast<float>(ray.q_term[i]);
+  }
+  test.kernel = planned.settings.kernel;
+  test.outside_is_lit = planned.settings.outside_is_lit;
+  // Parallel light has no distance.
+  test.is_radial = planned.settings.depth == ShadowDepth::radial && !test.maps[0].is_orthographic;
+  test.soft_edge = static_cast<float>(planned.settings.soft_edge);
+  test.instruction_set = set;
+  return test;
+}
+
 ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
                      const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
                      InstructionSet set, std::function<bool()> asks_to_stop)
-    : maps_(maps.begin(), maps.end()), asks_to_stop_(std::move(asks_to_stop)) {
-  for (const auto& map : maps) test_.maps.push_back(bind(*map, ray));
-  test_.bias = bias_of(planned.settings);
-  test_.filter = filter_of(planned.settings);
-  test_.frame = &frame;
-  // Several samples per pixel antialias shadows' edges by themselves.
-  test_.positions = samples_per_pixel > 1 ? 1 : 5;
-  for (int i = 0; i < 4; ++i) {
-    test_.ray_x[i] = static_cast<float>(ray.ray_x[i]);
-    test_.ray_y[i] = static_cast<float>(ray.ray_y[i]);
-    test_.q_term[i] = static_cast<float>(ray.q_term[i]);
-  }
-  test_.kernel = planned.settings.kernel;
-  test_.outside_is_lit = planned.settings.outside_is_lit;
-  test_.instruction_set = set;
-}
+    : maps_(maps.begin(), maps.end()),
+      test_(make_shadow_map_test(planned, maps, frame, ray, samples_per_pixel, set)),
+      asks_to_stop_(std::move(asks_to_stop)) {}
 
 double ShadowMap::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                                Arrival& arrival) const {

@@ -50,8 +50,16 @@ struct ShadowMapTest {
   int positions = 5;
   float ray_x[4], ray_y[4], q_term[4];  // of the samples' rays
   bool outside_is_lit = true;
+  bool is_radial = false;  // plain filters compare distances from the light
+  float soft_edge = 0;     // metres; plain filters
   InstructionSet instruction_set = InstructionSet::scalar;
 };
+
+/// `maps` must outlive the result; all else that a look-up needs is copied from the planned light's settings.
+ShadowMapTest make_shadow_map_test(const light::PlannedLight& planned,
+                                   std::span<const std::shared_ptr<DepthMap>> maps, const frame::Frame& frame,
+                                   const raster::RasterView::Ray& ray, int samples_per_pixel,
+                                   InstructionSet set);
 
 class ShadowMap final : public ShadowTechnique {
  public:
@@ -78,8 +86,8 @@ using FindMissingTiles = void (*)(const ShadowMapTest& test, const SurfaceSample
                                   std::span<const std::uint16_t> wanted, std::vector<MapTile>& missing);
 FindMissingTiles find_missing_tiles_for(InstructionSet set);
 
-/// The settings' filter. The refined one tests triangles and knows no bias: with a manual bias the four texels are
-/// compared as `bilinear` does.
+/// The settings' filter. The refined one tests triangles and knows neither bias nor softness: with a manual bias or a soft
+/// edge the four texels are compared as `bilinear` does.
 ShadowFilter filter_of(const ShadowSettings& settings);
 /// The settings' manual values, or the automatic bias.
 ShadowBias bias_of(const ShadowSettings& settings);

@@ -61,7 +61,9 @@ class TileFinder {
   TileFinder(const ShadowMapTest& test, std::size_t index, std::vector<MapTile>& missing)
       : map_(*test.maps[index].map), index_(index), missing_(missing) {
     // Taps of a kernel lie within half of it about the sample, and a texel more.
-    reach_ = static_cast<float>(test.filter == ShadowFilter::percentage_closer ? test.kernel : 2) * 0.5F + 1;
+    const bool has_kernel =
+        test.filter == ShadowFilter::percentage_closer || test.filter == ShadowFilter::averaged_depths;
+    reach_ = static_cast<float>(has_kernel ? test.kernel : 2) * 0.5F + 1;
   }
 
   [[nodiscard]] Span2 Around(float x_low, float x_high, float y_low, float y_high) const {

@@ -255,9 +255,8 @@ const RigCase kRigCases[] = {
     {"ShadowKeys",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"technique\": \"ray\", "
      "\"resolution\": 0, \"kernel\": 10,\n\"bias\": 1, \"outside\": \"dark\"}}]}",
-     "r.json: line 1: lights[0].shadow.technique: expected one of \"none\", \"map\", \"volume\", \"exact\", "
-     "\"raytraced\", got "
-     "\"ray\" (did you mean \"raytraced\"?)\n"
+     "r.json: line 1: lights[0].shadow.technique: expected one of \"none\", \"map\", \"pcss\", "
+     "\"variance\", \"exact\", \"raytraced\", got \"ray\" (did you mean \"raytraced\"?)\n"
      "r.json: line 1: lights[0].shadow.resolution: expected a whole number from 1 to 16384, got 0\n"
      "r.json: line 1: lights[0].shadow.kernel: expected a whole number from 2 to 9, got 10\n"
      "r.json: line 2: lights[0].shadow.outside: expected one of \"lit\", \"shadowed\", got \"dark\"\n"
@@ -267,12 +266,36 @@ const RigCase kRigCases[] = {
      "\"percentage-closer\", "
      "\"caster_faces\": \"front\"}}]}",
      "r.json: line 1: lights[0].shadow.filter: expected one of \"refined\", \"nearest\", \"bilinear\", "
-     "\"percentage_closer\", got \"percentage-closer\" (did you mean \"percentage_closer\"?)\n"
+     "\"percentage_closer\", \"averaged_depths\", got \"percentage-closer\" (did you mean "
+     "\"percentage_closer\"?)\n"
      "r.json: line 1: lights[0].shadow.caster_faces: expected one of \"both\", \"back_only\", got \"front\""},
     {"ShadowKernelOfAnotherFilter",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"kernel\": 5}}]}",
      "r.json: line 1: lights[0].shadow.kernel: has an effect only with \"filter\": \"percentage_closer\" "
-     "beside it"},
+     "or \"averaged_depths\" beside it"},
+    {"ShadowDepth",
+     "{\"lights\": [{\"type\": \"directional\", \"position\": [0,1,0], \"target\": [0,0,0], \"shadow\": "
+     "{\"depth\": "
+     "\"radial\"}},\n{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"depth\": \"round\", "
+     "\"soft_edge\": -1}}]}",
+     "r.json: line 1: lights[0].shadow.depth: radial depths are distances from the light, and parallel light "
+     "comes "
+     "from nowhere: use \"planar\"\n"
+     "r.json: line 2: lights[1].shadow.depth: expected one of \"planar\", \"radial\", got \"round\"\n"
+     "r.json: line 2: lights[1].shadow.soft_edge: expected a number from 0 to 1000000000, got -1"},
+    {"ShadowVariance",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"moments\": \"four\", "
+     "\"bleeding_reduction\": 2, \"blur\": 65}}]}",
+     "r.json: line 1: lights[0].shadow.moments: expected one of \"variance\", \"exponential\", got \"four\"\n"
+     "r.json: line 1: lights[0].shadow.bleeding_reduction: expected a number from 0 to 1, got 2\n"
+     "r.json: line 1: lights[0].shadow.blur: expected a number from 0 to 64, got 65"},
+    {"ShadowSoftParallelProjector",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,1], \"orthographic\": "
+     "{\"height\": "
+     "2}, \"far\": 9, \"radius\": 0.1, \"shadow\": {\"technique\": \"pcss\"}}]}",
+     "r.json: line 1: lights[0].shadow.technique: \"pcss\" cannot serve a parallel projector with a size: "
+     "all its "
+     "light goes one way"},
     {"ShadowResolutionFraction",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"resolution\": 1024.5}}]}",
      "r.json: line 1: lights[0].shadow.resolution: expected a whole number from 1 to 16384, got 1024.5"},

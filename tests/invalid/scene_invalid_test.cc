@@ -204,6 +204,19 @@ const SceneCase kSceneCases[] = {
      },
      "lights[0].shadow.constant_bias: expected a number from -1000000000 to 1000000000, got nan\n"
      "lights[0].shadow.slope_bias: expected a number from -1000000000 to 1000000000, got inf"},
+    {"ShadowDepths",
+     [](Scene& s) {
+       s.lights[0].shadow.soft_edge = -1;
+       s.lights[0].shadow.bleeding_reduction = 1.5F;
+       s.lights[0].shadow.blur = 65;
+       s.lights[1].shadow.moments = static_cast<ShadowMoments>(9);
+       s.lights[1].shadow.depth = static_cast<ShadowDepth>(9);
+     },
+     "lights[0].shadow.soft_edge: expected a number from 0 to 1000000000, got -1\n"
+     "lights[0].shadow.bleeding_reduction: expected a number from 0 to 1, got 1.5\n"
+     "lights[0].shadow.blur: expected a number from 0 to 64, got 65\n"
+     "lights[1].shadow.depth: 9 is no value of the enumeration, which ends at 1\n"
+     "lights[1].shadow.moments: 9 is no value of the enumeration, which ends at 1"},
     {"Ambient",
      [](Scene& s) {
        s.ambient.x = kNan;

@@ -241,6 +241,24 @@ TEST(Rig, Shadows) {
   EXPECT_EQ(shadow_of(R"({"filter": "percentage_closer"})").kernel, 3);
   EXPECT_EQ(shadow_of(R"({"technique": "map"})").technique, ShadowTechnique::map);
   EXPECT_EQ(shadow_of(R"({"technique": "none"})").technique, ShadowTechnique::none);
+  EXPECT_EQ(shadow_of(R"({"technique": "pcss"})").technique, ShadowTechnique::pcss);
+}
+
+TEST(Rig, ShadowDepthsAndMoments) {
+  const auto shadow_of = [](const std::string& value) {
+    return load_light(R"("type": "point", "position": [1, 2, 3], "shadow": )" + value).shadow;
+  };
+  const ShadowSettings full = shadow_of(R"({"technique": "variance", "moments": "variance", "blur": 3.5,
+      "bleeding_reduction": 0.75, "depth": "radial", "soft_edge": 0.25, "filter": "averaged_depths", "kernel": 5})");
+  EXPECT_EQ(full.technique, ShadowTechnique::variance);
+  EXPECT_EQ(full.moments, ShadowMoments::variance);
+  EXPECT_EQ(full.blur, 3.5F);
+  EXPECT_EQ(full.bleeding_reduction, 0.75F);
+  EXPECT_EQ(full.depth, ShadowDepth::radial);
+  EXPECT_EQ(full.soft_edge, 0.25);
+  EXPECT_EQ(full.filter, ShadowFilter::averaged_depths);
+  EXPECT_EQ(full.kernel, 5);
+  EXPECT_EQ(shadow_of(R"({"moments": "exponential"})"), ShadowSettings{});
 }
 
 TEST(Rig, Settings) {
