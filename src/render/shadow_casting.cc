@@ -1,8 +1,11 @@
 #include "render/shadow_casting.h"
 
+#include "render/silhouette_painter.h"
 #include "shadow/exact_shadow.h"
+#include "shadow/ground_shadow.h"
 #include "shadow/ray_traced.h"
 #include "shadow/shadow_map.h"
+#include "shadow/silhouette_shadow.h"
 
 namespace laterna::render {
 
@@ -27,6 +30,10 @@ std::unique_ptr<shadow::PaneFinder> ShadowCasting::make_panes(const light::Plann
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light::PlannedLight& planned,
                                                                     std::size_t index) {
   switch (planned.technique) {
+    case ShadowTechnique::ground:
+      return std::make_unique<shadow::GroundShadow>(planned, context_.frame);
+    case ShadowTechnique::silhouette:
+      return make_silhouettes(planned);
     case ShadowTechnique::map:
       return make_map(planned, index);
     case ShadowTechnique::exact:
@@ -68,8 +75,33 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_exact(const light::
                                                context_.instruction_set);
 }
 
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_silhouettes(
+    const light::PlannedLight& planned) const {
+  auto technique = std::make_unique<shadow::SilhouetteShadow>(
+      planned, context_.frame, context_.camera.homogeneous_ray(),
+      std::make_unique<SilhouettePainter>(context_.frame, context_.bins, context_.instruction_set,
+                                          planned.settings.caster_faces));
+  // Otherwise they are drawn as samples ask for them: what the camera cannot see asks for none (row 47).
+  if (!planned.settings.culls_occluders) {
+    context_.pool.for_each(technique->silhouette_count(), [&](std::size_t i, int) {
+      if (!context_.progress.asks_to_stop()) technique->draw(i);
+    });
+  }
+  return technique;
+}
+
 void ShadowCasting::report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes) {
   context_.statistics.shadow_memory.push_back({planned.placed->light->name, maps, bytes});
+}
+
+void report_drawn(const light::PlannedLight& planned, const shadow::ShadowTechnique* technique,
+                  RenderStatistics& statistics) {
+  if (technique == nullptr || planned.technique != ShadowTechnique::silhouette) return;
+  const shadow::DrawnForShadows drawn = technique->drawn();
+  const std::string& light = planned.placed->light->name;
+  statistics.silhouettes.push_back(
+      {light, drawn.objects, drawn.pairs, drawn.silhouettes, drawn.silhouettes_drawn});
+  statistics.shadow_memory.push_back({light, static_cast<int>(drawn.silhouettes_drawn), drawn.bytes});
 }
 
 }  // namespace laterna::render

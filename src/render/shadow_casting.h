@@ -47,11 +47,17 @@ class ShadowCasting {
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_map(const light::PlannedLight& planned,
                                                                   std::size_t index);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_exact(const light::PlannedLight& planned);
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_silhouettes(
+      const light::PlannedLight& planned) const;
   void report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes);
 
   CastingContext context_;
   std::size_t working_bytes_ = 0;  // of the picture's maps so far
   bool has_reported_tree_ = false;
 };
+
+/// What could be known only when the picture was done.
+void report_drawn(const light::PlannedLight& planned, const shadow::ShadowTechnique* technique,
+                  RenderStatistics& statistics);
 
 }  // namespace laterna::render
