@@ -5,8 +5,7 @@
 namespace laterna {
 namespace {
 
-constexpr std::array<TechniqueDescription, 4> kTechniques = {{
-constexpr std::array<TechniqueDescription, 5> kTechniques = {{
+constexpr std::array<TechniqueDescription, 6> kTechniques = {{
     {ShadowTechnique::none, "none", "light passes through everything"},
     {ShadowTechnique::ground, "ground",
      "shadow polygons on the floor, or on planes that are named: sharp, no maps, but nothing else is shaded"},
