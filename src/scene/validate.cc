@@ -367,7 +367,8 @@ void Validator::check_plane(const ShadowPlane& plane, const std::string& place) 
   for (int k = 0; k < 3; ++k)
     check_number(place + ".normal", plane.normal[k], -kMaxCoordinate, kMaxCoordinate);
   check_number(place + ".distance", plane.distance, -kMaxCoordinate, kMaxCoordinate);
-  if (plane.normal == glm::dvec3(0)) fault(place + ".normal", "expected a vector that is not zero");
+  if (glm::dot(plane.normal, plane.normal) < 1e-24)
+    fault(place + ".normal", "expected a vector that is not zero");
 }
 
 void Validator::check_whole_scene() {
