@@ -137,6 +137,14 @@ nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double
   for (const auto& light : s.shadow_memory) {
     memory.push_back({{"light", light.light}, {"maps", light.maps}, {"bytes", light.bytes}});
   }
+  nlohmann::json silhouettes = nlohmann::json::array();
+  for (const auto& light : s.silhouettes) {
+    silhouettes.push_back({{"light", light.light},
+                           {"objects", light.objects},
+                           {"pairs", light.pairs},
+                           {"silhouettes", light.silhouettes},
+                           {"silhouettes_drawn", light.silhouettes_drawn}});
+  }
   return {{"load_ms", load_ms},
           {"plan_ms", s.plan_ms},
           {"shadow_ms", s.shadow_ms},
@@ -148,6 +156,7 @@ nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double
           {"triangles_drawn", s.triangles_drawn},
           {"maps_drawn", s.maps_drawn},
           {"maps_kept", s.maps_kept},
+          {"silhouettes", silhouettes},
           {"shadow_memory", memory},
           {"light_samples", s.light_samples},
           {"noise", s.noise}};

@@ -103,6 +103,15 @@ struct RenderStatistics {
     std::size_t bytes = 0;
   };
   std::vector<LightMemory> shadow_memory;
+  /// Of each light with projected silhouettes (rows 38, 47).
+  struct SilhouetteWork {
+    std::string light;
+    std::size_t objects = 0;            ///< that cast or receive
+    std::size_t pairs = 0;              ///< of an occluder and a receiver that it may shade
+    std::size_t silhouettes = 0;        ///< one for each occluder, six where it is all round the light
+    std::size_t silhouettes_drawn = 0;  ///< those that a sample in the picture asked for
+  };
+  std::vector<SilhouetteWork> silhouettes;
 };
 
 struct RendererOptions {

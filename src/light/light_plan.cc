@@ -4,6 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
+
+#include "light/floor.h"
 
 namespace laterna::light {
 namespace {
@@ -13,6 +16,7 @@ using frame::PlacedLight;
 
 constexpr int kDefaultResolution = 2048;
 constexpr int kDefaultFaceResolution = 1024;
+constexpr int kDefaultSilhouetteResolution = 512;
 constexpr int kMaxResolution = 16384;
 
 // Where shadow maps of point and spot lights begin: before the nearest caster, but no farther than this. Reversed depth
@@ -195,6 +199,26 @@ const PlacedLight* place(const PlacedLight& placed, SourcePoint point, LightPlan
   return &moved;
 }
 
+int default_resolution(ShadowTechnique technique, LightType type) {
+  if (technique == ShadowTechnique::silhouette) return kDefaultSilhouetteResolution;
+  return type == LightType::point ? kDefaultFaceResolution : kDefaultResolution;
+}
+
+// The floor is looked for once for all lights that name no planes.
+void find_ground_planes(const Frame& frame, std::vector<PlannedLight>& lights) {
+  const auto wants_floor = [](const PlannedLight& planned) {
+    return planned.technique == ShadowTechnique::ground && planned.settings.planes.empty();
+  };
+  std::vector<ShadowPlane> floor;
+  if (std::any_of(lights.begin(), lights.end(), wants_floor)) {
+    if (const std::optional<ShadowPlane> found = find_floor(frame)) floor.push_back(*found);
+  }
+  for (PlannedLight& planned : lights) {
+    if (planned.technique != ShadowTechnique::ground) continue;
+    planned.ground_planes = wants_floor(planned) ? floor : planned.settings.planes;
+  }
+}
+
 }  // namespace
 
 LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings) {
@@ -206,8 +230,7 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
     planned.settings = placed.light->shadow;
     planned.technique = planned.settings.technique.value_or(plan_settings.technique);
     if (planned.settings.resolution == 0) {
-      planned.settings.resolution =
-          placed.light->type == LightType::point ? kDefaultFaceResolution : kDefaultResolution;
+      planned.settings.resolution = default_resolution(planned.technique, placed.light->type);
     }
     switch (planned.technique) {
       case ShadowTechnique::map:
@@ -220,6 +243,7 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
     }
     plan.lights.push_back(std::move(planned));
   }
+  find_ground_planes(frame, plan.lights);
   return plan;
 }
 

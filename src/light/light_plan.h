@@ -20,8 +20,9 @@ struct PlannedLight {
   const frame::PlacedLight* placed = nullptr;
   std::uint32_t number = 0;  // in the frame's order
   ShadowTechnique technique = ShadowTechnique::none;
-  ShadowSettings settings;               // resolution filled in
-  std::vector<ShadowView> shadow_views;  // map: one, or six for a light that shines all round
+  ShadowSettings settings;                 // resolution filled in
+  std::vector<ShadowView> shadow_views;    // map: one, or six for a light that shines all round
+  std::vector<ShadowPlane> ground_planes;  // ground
 };
 
 struct LightPlan {

@@ -18,6 +18,7 @@ inline void add_costs(RenderStatistics& sum, const RenderStatistics& one) {
   sum.maps_drawn += one.maps_drawn;
   sum.maps_kept += one.maps_kept;
   sum.shadow_memory = one.shadow_memory;
+  sum.silhouettes = one.silhouettes;
 }
 
 }  // namespace laterna::render

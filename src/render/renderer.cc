@@ -296,6 +296,8 @@ RenderStatistics Renderer::Implementation::draw_picture(const View& from, const 
   shade::ShaderJob job = make_job(view, settings, plan, statistics, progress);
   statistics.shadow_ms = watch.lap_ms();
   if (!progress.is_cancelled()) draw_bands(view, settings, job, writer, statistics, progress);
+  for (std::size_t i = 0; i < job.lights.size(); ++i)
+    render::report_drawn(plan.lights[i], job.lights[i].shadow.get(), statistics);
   statistics.total_ms = statistics.plan_ms + statistics.shadow_ms + watch.lap_ms();
   return statistics;
 }

@@ -1,8 +1,12 @@
 #include "render/shadow_casting.h"
 
+#include "render/silhouette_painter.h"
 #include "shadow/exact_shadow.h"
+#include "shadow/ground_shadow.h"
 #include "shadow/ray_traced.h"
 #include "shadow/shadow_map.h"
+#include "shadow/shadow_volume.h"
+#include "shadow/silhouette_shadow.h"
 #include "shadow/soft_shadow_map.h"
 #include "shadow/variance_shadow_map.h"
 
@@ -29,14 +33,20 @@ std::unique_ptr<shadow::PaneFinder> ShadowCasting::make_panes(const light::Plann
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light::PlannedLight& planned,
                                                                     std::size_t index) {
   switch (planned.technique) {
+    case ShadowTechnique::ground:
+      return std::make_unique<shadow::GroundShadow>(planned, context_.frame);
+    case ShadowTechnique::silhouette:
+      return make_silhouettes(planned);
     case ShadowTechnique::map:
       return make_map(planned, index);
-    case ShadowTechnique::exact:
-      return make_exact(planned);
     case ShadowTechnique::pcss:
       return make_soft_map(planned, index);
     case ShadowTechnique::variance:
       return make_variance_map(planned, index);
+    case ShadowTechnique::volume:
+      return make_volume(planned);
+    case ShadowTechnique::exact:
+      return make_exact(planned);
     case ShadowTechnique::raytraced:
       return std::make_unique<shadow::RayTracedShadow>(planned, context_.ray_scene());
     default:
@@ -82,10 +92,36 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::Pl
 // The tree is all lights': the first is said to hold it.
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_exact(const light::PlannedLight& planned) {
   std::shared_ptr<const shadow::CasterTree> tree = context_.caster_tree(shadow::CasterTree::Casters::opaque);
-  report_memory(planned, {}, has_reported_tree_ ? 0 : tree->memory_bytes());
+  report_memory(planned, 0, has_reported_tree_ ? 0 : tree->memory_bytes());
   has_reported_tree_ = true;
   return std::make_unique<shadow::ExactShadow>(planned, context_.frame, std::move(tree),
                                                context_.instruction_set);
+}
+
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_volume(const light::PlannedLight& planned) {
+  auto volume = std::make_unique<shadow::ShadowVolume>(planned, context_.frame, context_.camera,
+                                                       context_.pool, context_.instruction_set);
+  report_memory(planned, 0, volume->memory_bytes());
+  return volume;
+}
+
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_silhouettes(
+    const light::PlannedLight& planned) const {
+  auto technique = std::make_unique<shadow::SilhouetteShadow>(
+      planned, context_.frame, context_.camera.homogeneous_ray(),
+      std::make_unique<SilhouettePainter>(context_.frame, context_.bins, context_.instruction_set,
+                                          planned.settings.caster_faces));
+  // Otherwise they are drawn as samples ask for them: what the camera cannot see asks for none (row 47).
+  if (!planned.settings.culls_occluders) {
+    context_.pool.for_each(technique->silhouette_count(), [&](std::size_t i, int) {
+      if (!context_.progress.asks_to_stop()) technique->draw(i);
+    });
+  }
+  return technique;
+}
+
+void ShadowCasting::report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes) {
+  context_.statistics.shadow_memory.push_back({planned.placed->light->name, maps, bytes});
 }
 
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_soft_map(const light::PlannedLight& planned,
@@ -115,8 +151,17 @@ void ShadowCasting::report_memory(const light::PlannedLight& planned, const Dept
                                   std::size_t more_bytes) {
   std::size_t bytes = more_bytes;
   for (const auto& map : maps) bytes += map->memory_bytes();
-  context_.statistics.shadow_memory.push_back(
-      {planned.placed->light->name, static_cast<int>(maps.size()), bytes});
+  report_memory(planned, static_cast<int>(maps.size()), bytes);
+}
+
+void report_drawn(const light::PlannedLight& planned, const shadow::ShadowTechnique* technique,
+                  RenderStatistics& statistics) {
+  if (technique == nullptr || planned.technique != ShadowTechnique::silhouette) return;
+  const shadow::DrawnForShadows drawn = technique->drawn();
+  const std::string& light = planned.placed->light->name;
+  statistics.silhouettes.push_back(
+      {light, drawn.objects, drawn.pairs, drawn.silhouettes, drawn.silhouettes_drawn});
+  statistics.shadow_memory.push_back({light, static_cast<int>(drawn.silhouettes_drawn), drawn.bytes});
 }
 
 }  // namespace laterna::render

@@ -47,6 +47,7 @@ class ShadowCasting {
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_map(const light::PlannedLight& planned,
                                                                   std::size_t index);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_exact(const light::PlannedLight& planned);
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_volume(const light::PlannedLight& planned);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_soft_map(const light::PlannedLight& planned,
                                                                        std::size_t index);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_variance_map(const light::PlannedLight& planned,
@@ -57,10 +58,17 @@ class ShadowCasting {
   // All tiles at once. False: the caller asks to stop, and there is nothing to be made of the maps.
   [[nodiscard]] bool complete(const DepthMaps& maps);
   void report_memory(const light::PlannedLight& planned, const DepthMaps& maps, std::size_t more_bytes);
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_silhouettes(
+      const light::PlannedLight& planned) const;
+  void report_memory(const light::PlannedLight& planned, int maps, std::size_t bytes);
 
   CastingContext context_;
   std::size_t working_bytes_ = 0;  // of the picture's maps so far
   bool has_reported_tree_ = false;
 };
+
+/// What could be known only when the picture was done.
+void report_drawn(const light::PlannedLight& planned, const shadow::ShadowTechnique* technique,
+                  RenderStatistics& statistics);
 
 }  // namespace laterna::render

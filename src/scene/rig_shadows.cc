@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <glm/geometric.hpp>
+
 #include "scene/rig_ranges.h"
 
 namespace laterna {
 namespace {
 
 constexpr std::uint64_t kMaxShadowResolution = 16384;
+constexpr std::uint64_t kMostSmoothing = 64;
 
 void read_technique(JsonObject& shadow, Light& light) {
   std::vector<std::pair<std::string_view, ShadowTechnique>> choices;
@@ -72,6 +75,52 @@ void read_variance(JsonObject& shadow, ShadowSettings& settings) {
     settings.blur = static_cast<float>(*given);
 }
 
+// {"normal", "distance"} or {"normal", "point"}.
+void read_plane(const JsonDocument& json, const JsonValue& value, FaultList& faults,
+                ShadowSettings& settings) {
+  JsonObject object(json, value, faults);
+  if (!value.is_object()) return;
+  ShadowPlane plane;
+  object.require("normal");
+  if (const auto n = object.numbers<3>("normal", kCoordinate)) {
+    plane.normal = glm::dvec3((*n)[0], (*n)[1], (*n)[2]);
+    if (plane.normal == glm::dvec3(0)) {
+      object.error("normal", "expected a vector that is not zero");
+      plane.normal = {0, 1, 0};
+    }
+  }
+  const auto point = object.numbers<3>("point", kCoordinate);
+  const auto distance = object.number("distance", kCoordinate);
+  if (object.has("point") == object.has("distance"))
+    object.error("", "expected exactly one of \"point\" and \"distance\" beside \"normal\"");
+  plane.normal = glm::normalize(plane.normal);
+  if (point) plane.distance = glm::dot(plane.normal, glm::dvec3((*point)[0], (*point)[1], (*point)[2]));
+  if (distance) plane.distance = *distance;
+  object.report_unknown_members("a plane");
+  settings.planes.push_back(plane);
+}
+
+void read_ground(const JsonDocument& json, JsonObject& shadow, FaultList& faults, ShadowSettings& settings) {
+  const JsonValue* planes = shadow.array("planes");
+  if (planes == nullptr) return;
+  if (planes->children.empty()) shadow.error("planes", "is empty: leave it out for the scene's floor");
+  for (const JsonValue& plane : planes->children) read_plane(json, plane, faults, settings);
+}
+
+void read_silhouette(JsonObject& shadow, ShadowSettings& settings) {
+  settings.smooth = static_cast<int>(shadow.whole("smooth", 0, kMostSmoothing).value_or(0));
+  if (const auto kernel = shadow.choice<SmoothKernel>(
+          "smooth_kernel",
+          {{"eight_neighbours", SmoothKernel::eight_neighbours}, {"binomial", SmoothKernel::binomial}})) {
+    settings.smooth_kernel = *kernel;
+    if (settings.smooth == 0)
+      shadow.error("smooth_kernel", "has an effect only with \"smooth\": 1 or more beside it");
+  }
+  settings.orders_objects =
+      shadow.choice<bool>("order", {{"distance", true}, {"none", false}}).value_or(true);
+  settings.culls_occluders = shadow.boolean("cull").value_or(true);
+}
+
 void read_darkness(JsonObject& shadow, ShadowSettings& settings) {
   if (const auto color = shadow.numbers<3>("color", kZeroToOne)) {
     settings.color = glm::vec3((*color)[0], (*color)[1], (*color)[2]);
@@ -102,6 +151,8 @@ void read_rig_shadow(const JsonDocument& json, JsonObject& object, FaultList& fa
   read_map(shadow, light.shadow);
   read_depth(shadow, light);
   read_variance(shadow, light.shadow);
+  read_ground(json, shadow, faults, light.shadow);
+  read_silhouette(shadow, light.shadow);
   read_darkness(shadow, light.shadow);
   shadow.report_unknown_members("a shadow");
 }

@@ -7,6 +7,10 @@ namespace {
 
 constexpr std::array<TechniqueDescription, 6> kTechniques = {{
     {ShadowTechnique::none, "none", "light passes through everything"},
+    {ShadowTechnique::ground, "ground",
+     "shadow polygons on the floor, or on planes that are named: sharp, no maps, but nothing else is shaded"},
+    {ShadowTechnique::silhouette, "silhouette",
+     "each object's silhouette thrown on the objects behind it: no depths, so none shades itself"},
     {ShadowTechnique::map, "map",
      "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
     {ShadowTechnique::pcss, "pcss",

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kMaxShadowResolution = 16384;
 constexpr int kLeastKernel = 2, kMostKernel = 9;
+constexpr int kMostSmoothing = 64;
 
 std::string item(std::string_view list, std::size_t index) { return fmt::format("{}[{}]", list, index); }
 
@@ -96,6 +97,7 @@ class Validator {
   void check_light(const Light& light, const std::string& place);
   void check_source(const Light& light, const std::string& place);
   void check_shadow(const ShadowSettings& shadow, const std::string& place);
+  void check_plane(const ShadowPlane& plane, const std::string& place);
   void check_whole_scene();
   void check_nodes();
   void check_node(const Node& node, const std::string& place);
@@ -358,10 +360,22 @@ void Validator::check_shadow(const ShadowSettings& shadow, const std::string& pl
   check_number(place + ".opacity", shadow.opacity, 0, 1);
   check_number(place + ".ambient", shadow.ambient, 0, 1);
   check_number(place + ".fill", shadow.fill, 0, 1);
+  for (std::size_t i = 0; i < shadow.planes.size(); ++i)
+    check_plane(shadow.planes[i], item(place + ".planes", i));
+  check_number(place + ".smooth", shadow.smooth, 0, kMostSmoothing);
+  check_enumerator(place + ".smooth_kernel", shadow.smooth_kernel, SmoothKernel::binomial);
   if (shadow.constant_bias)
     check_number(place + ".constant_bias", *shadow.constant_bias, -kMaxCoordinate, kMaxCoordinate);
   if (shadow.slope_bias)
     check_number(place + ".slope_bias", *shadow.slope_bias, -kMaxCoordinate, kMaxCoordinate);
+}
+
+void Validator::check_plane(const ShadowPlane& plane, const std::string& place) {
+  for (int k = 0; k < 3; ++k)
+    check_number(place + ".normal", plane.normal[k], -kMaxCoordinate, kMaxCoordinate);
+  check_number(place + ".distance", plane.distance, -kMaxCoordinate, kMaxCoordinate);
+  if (glm::dot(plane.normal, plane.normal) < 1e-24)
+    fault(place + ".normal", "expected a vector that is not zero");
 }
 
 void Validator::check_whole_scene() {

@@ -46,6 +46,7 @@ class ShadowThroughPanes final : public ShadowTechnique {
       : opaque_(std::move(opaque)), panes_(std::move(panes)), frame_(frame), set_(set) {}
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                       Arrival& arrival) const override;
+  [[nodiscard]] DrawnForShadows drawn() const override { return opaque_->drawn(); }
 
  private:
   std::unique_ptr<ShadowTechnique> opaque_;

@@ -1,6 +1,7 @@
 // The one question every shadow technique answers: how much of a light arrives at each sample?
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -17,6 +18,13 @@ struct Arrival {
   SampleArray<float> r, g, b;  ///< then: fraction that arrives, by channel
 };
 
+/// What a technique drew for a picture, where it is not known before.
+struct DrawnForShadows {
+  std::size_t objects = 0, pairs = 0;  ///< of an occluder and a receiver
+  std::size_t silhouettes = 0, silhouettes_drawn = 0;
+  std::size_t bytes = 0;
+};
+
 /// Answers for one light and one set of samples' rays. Const calls may come from several threads at once.
 class ShadowTechnique {
  public:
@@ -27,6 +35,9 @@ class ShadowTechnique {
   /// rather than into reading it.
   virtual double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                               Arrival& arrival) const = 0;
+
+  /// When the picture is done.
+  [[nodiscard]] virtual DrawnForShadows drawn() const { return {}; }
 };
 
 }  // namespace laterna::shadow
