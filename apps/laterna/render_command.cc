@@ -18,6 +18,7 @@
 #include "outcome.h"
 #include "progress_line.h"
 #include "scene_options.h"
+#include "technique_names.h"
 
 namespace laterna::app {
 namespace {

@@ -10,12 +10,6 @@
 
 namespace laterna::app {
 
-std::vector<std::string> technique_names() {
-  std::vector<std::string> names;
-  for (const TechniqueDescription& t : list_techniques()) names.emplace_back(t.name);
-  return names;
-}
-
 Error bad_option(std::string message) { return {Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}}; }
 
 void SceneOptions::declare_scene(CLI::App& command) {

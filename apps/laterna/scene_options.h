@@ -45,9 +45,6 @@ struct ViewOptions {
   [[nodiscard]] Result<View> find(const Renderer& renderer, const Size& size) const;
 };
 
-/// What --shadows takes.
-std::vector<std::string> technique_names();
-
 /// An error about an option.
 Error bad_option(std::string message);
 

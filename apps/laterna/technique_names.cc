@@ -8,6 +8,12 @@
 
 namespace laterna::app {
 
+std::vector<std::string> technique_names() {
+  std::vector<std::string> names;
+  for (const TechniqueDescription& t : list_techniques()) names.emplace_back(t.name);
+  return names;
+}
+
 std::string name_of(ShadowTechnique technique) {
   for (const TechniqueDescription& t : list_techniques()) {
     if (t.technique == technique) return std::string(t.name);

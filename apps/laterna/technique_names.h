@@ -8,6 +8,8 @@
 
 namespace laterna::app {
 
+/// Of all that there are.
+std::vector<std::string> technique_names();
 std::string name_of(ShadowTechnique technique);
 /// "all", or names with commas between. Error: a name that no technique has; lists those that there are.
 Result<std::vector<ShadowTechnique>> parse_techniques(const std::string& list);

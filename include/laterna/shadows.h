@@ -50,7 +50,7 @@ inline constexpr double kMaxShadowBlur = 64;
 
 /// A plane that ground shadows fall on: the points x with normal · x = distance, where normal is brought to length 1.
 struct ShadowPlane {
-  glm::dvec3 normal{0, 1, 0};  ///< of any length but 0
+  glm::dvec3 normal{0, 1, 0};  ///< of any length from 1e-12 on
   double distance = 0;         ///< metres from the origin, along the normal
   bool operator==(const ShadowPlane&) const = default;
 };
@@ -58,7 +58,7 @@ struct ShadowPlane {
 /// How silhouettes are smoothed (row 36).
 enum class SmoothKernel : std::uint8_t {
   eight_neighbours,  ///< the mean of the eight neighbours, without the texel itself, as Chen and Tung print it
-  binomial,  ///< 1 2 1 across and down: what n passes tend to is a Gaussian, and the middle counts most
+  binomial,          ///< 1 2 1 across and down: tends to a Gaussian, and the middle counts most
 };
 
 /// One light's shadows. The defaults need no tuning: bias follows from the receiver's plane and the texel's footprint.
@@ -67,8 +67,8 @@ struct ShadowSettings {
   std::optional<ShadowTechnique> technique;  ///< unset: the picture's
 
   // Shadow maps.
-  int resolution =
-      0;  ///< texels per side of a map (per cube face); 0: 2048, point lights 1024, silhouettes 512
+  /// Texels per side of a map (per cube face); 0: 2048, point lights 1024, silhouettes 512.
+  int resolution = 0;
   ShadowFilter filter = ShadowFilter::refined;
   int kernel = 3;  ///< percentage_closer and averaged_depths: kernel × kernel nearest taps, 2…9
   std::optional<double> constant_bias;  ///< metres toward the light; overrides the automatic bias
@@ -87,14 +87,13 @@ struct ShadowSettings {
   float blur = 2;  ///< texels that the moments are averaged over to each side, 0…kMaxShadowBlur
 
   // Ground shadows.
-  std::vector<ShadowPlane> planes;  ///< empty: the scene's floor, its largest horizontal plane
+  std::vector<ShadowPlane> planes;  ///< empty: the scene's floor, its lowest large horizontal one
 
   // Projected silhouettes.
   int smooth = 0;  ///< passes, 0…64
   SmoothKernel smooth_kernel = SmoothKernel::eight_neighbours;
-  bool orders_objects = true;  ///< false: objects between a light and a caster are shaded by it too (row 31)
-  bool culls_occluders =
-      true;  ///< false: every silhouette is drawn and looked up; the picture is the same (row 47)
+  bool orders_objects = true;   ///< false: objects between a light and a caster are shaded by it too (row 31)
+  bool culls_occluders = true;  ///< false: all silhouettes are drawn; the picture is the same (row 47)
 
   // How dark: physical unless set. With α the fraction that arrives, ambient + (1 − ambient) α takes its place (row 91,
   // GL_ARB_shadow_ambient), and of each colour 1 − opacity (1 − color) (1 − that) is seen (row 34).

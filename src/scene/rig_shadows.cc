@@ -84,7 +84,7 @@ void read_plane(const JsonDocument& json, const JsonValue& value, FaultList& fau
   object.require("normal");
   if (const auto n = object.numbers<3>("normal", kCoordinate)) {
     plane.normal = glm::dvec3((*n)[0], (*n)[1], (*n)[2]);
-    if (plane.normal == glm::dvec3(0)) {
+    if (glm::dot(plane.normal, plane.normal) < 1e-24) {
       object.error("normal", "expected a vector that is not zero");
       plane.normal = {0, 1, 0};
     }

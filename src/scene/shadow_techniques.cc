@@ -1,11 +1,9 @@
-#include <array>
-
 #include "laterna/scene.h"
 
 namespace laterna {
 namespace {
 
-constexpr std::array<TechniqueDescription, 6> kTechniques = {{
+constexpr TechniqueDescription kTechniques[] = {
     {ShadowTechnique::none, "none", "light passes through everything"},
     {ShadowTechnique::ground, "ground",
      "shadow polygons on the floor, or on planes that are named: sharp, no maps, but nothing else is shaded"},
@@ -16,11 +14,13 @@ constexpr std::array<TechniqueDescription, 6> kTechniques = {{
     {ShadowTechnique::pcss, "pcss",
      "soft shadows by the light's size: maps filtered as wide as each penumbra"},
     {ShadowTechnique::variance, "variance", "maps of moments of depth, filtered like textures: smooth edges"},
+    {ShadowTechnique::volume, "volume",
+     "shadow volumes counted along each line of sight: slow, exact, a second reference"},
     {ShadowTechnique::exact, "exact",
      "hard shadows to the last bit: every sample against every triangle in its way, without a map"},
     {ShadowTechnique::raytraced, "raytraced",
      "hard shadows by rays: slow, exact, the reference for the others"},
-}};
+};
 
 }  // namespace
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-
 namespace laterna::shadow {
 namespace {
 

@@ -255,8 +255,9 @@ const RigCase kRigCases[] = {
     {"ShadowKeys",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"technique\": \"ray\", "
      "\"resolution\": 0, \"kernel\": 10,\n\"bias\": 1, \"outside\": \"dark\"}}]}",
-     "r.json: line 1: lights[0].shadow.technique: expected one of \"none\", \"map\", \"pcss\", "
-     "\"variance\", \"exact\", \"raytraced\", got \"ray\" (did you mean \"raytraced\"?)\n"
+     "r.json: line 1: lights[0].shadow.technique: expected one of \"none\", \"ground\", "
+     "\"silhouette\", \"map\", \"pcss\", \"variance\", \"volume\", \"exact\", \"raytraced\", got \"ray\" "
+     "(did you mean \"raytraced\"?)\n"
      "r.json: line 1: lights[0].shadow.resolution: expected a whole number from 1 to 16384, got 0\n"
      "r.json: line 1: lights[0].shadow.kernel: expected a whole number from 2 to 9, got 10\n"
      "r.json: line 2: lights[0].shadow.outside: expected one of \"lit\", \"shadowed\", got \"dark\"\n"
