@@ -54,9 +54,10 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::Pl
   std::size_t bytes = 0;
   for (const auto& map : found.maps) bytes += map->memory_bytes();
   report_memory(planned, static_cast<int>(found.maps.size()), bytes);
-  return std::make_unique<shadow::ShadowMap>(planned, found.maps, context_.frame,
-                                             context_.camera.homogeneous_ray(), context_.settings.samples,
-                                             context_.instruction_set, asks_to_stop);
+  const bool is_refined = shadow::filter_of(planned.settings) == ShadowFilter::refined;
+  return std::make_unique<shadow::ShadowMap>(
+      planned, found.maps, context_.frame, is_refined ? context_.neighbours() : nullptr,
+      context_.camera.homogeneous_ray(), context_.settings.samples, context_.instruction_set, asks_to_stop);
 }
 
 // The tree is all lights': the first is said to hold it.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "frame/triangle_neighbours.h"
 #include "laterna/render.h"
 #include "light/light_plan.h"
 #include "render/depth_map_cache.h"
@@ -26,6 +27,7 @@ struct CastingContext {
   DepthMapCache& maps;
   std::function<std::shared_ptr<const trace::RayScene>()> ray_scene;
   std::function<std::shared_ptr<const shadow::CasterTree>(shadow::CasterTree::Casters)> caster_tree;
+  std::function<const frame::TriangleNeighbours*()> neighbours;
   const raster::RasterView& camera;
   const RenderSettings& settings;
   RenderStatistics& statistics;

@@ -147,6 +147,7 @@ constexpr float kSmallTexels = 2.0F;
 // Where rays from points toward the light meet triangles.
 struct Crossing {
   FloatMask meets;
+  FloatMask is_parallel;         // to the triangle: the weights mean nothing
   FloatVector u, v;              // weights of the second and third corner
   FloatVector distance_squared;  // from the point
   FloatMask is_small;            // seen from the light, the triangle hardly covers a texel
@@ -167,12 +168,12 @@ HWY_INLINE Crossing FindCrossing(const BoundDepthMap& bound, const frame::HWY_NA
   const Vector3 u_edge = at.b - at.a, v_edge = at.c - at.a;
   const Vector3 p = Cross(ray, v_edge);
   const auto determinant = Dot(u_edge, p);
-  const auto is_parallel = hn::Abs(determinant) <= Splat(1e-20F);
-  const auto inverse = one / hn::IfThenElse(is_parallel, one, determinant);
+  Crossing crossing;
+  crossing.is_parallel = hn::Abs(determinant) <= Splat(1e-20F);
+  const auto inverse = one / hn::IfThenElse(crossing.is_parallel, one, determinant);
   const Vector3 s = point - at.a;
   const Vector3 q = Cross(s, u_edge);
   const auto t = Dot(v_edge, q) * inverse;
-  Crossing crossing;
   crossing.u = Dot(s, p) * inverse;
   crossing.v = Dot(ray, q) * inverse;
   crossing.distance_squared = t * t * length_squared;
@@ -182,7 +183,7 @@ HWY_INLINE Crossing FindCrossing(const BoundDepthMap& bound, const frame::HWY_NA
       hn::And(hn::And(crossing.u >= hair, crossing.v >= hair), crossing.u + crossing.v <= one - hair);
   meets = hn::And(meets, t > zero);
   if constexpr (!kOrthographic) meets = hn::And(meets, t < one);
-  crossing.meets = hn::AndNot(is_parallel, meets);
+  crossing.meets = hn::AndNot(crossing.is_parallel, meets);
   // |determinant| is twice the area across the ray, times its length. A texel there is texel_size · distance wide.
   // Orthographic: area = |determinant| / 2. Perspective: |determinant| / (2 |ray|) against (texel_size (1 − t) |ray|)².
   const auto side = kOrthographic ? Splat(bound.texel_size) : Splat(bound.texel_size) * (one - t);
@@ -234,6 +235,103 @@ struct Blocking {
   FloatVector dark;  // weight of texels that saw something far in front and too small to be sure of
 };
 
+// From a suspect that the ray misses, so many steps are made at most. Where triangles are so much smaller than texels
+// that these do not lead to the ray, what the texels saw decides.
+constexpr int kMostSteps = 8;
+
+// N walks over surfaces, each from a suspect toward the ray: from triangle to triangle, always across the edge beyond
+// which the ray passes the plane.
+class Walk {
+ public:
+  Walk(const ShadowMapTest& test, IntVector start, IntVector own, FloatMask wanted)
+      : neighbours_(*test.neighbours), own_(own), id_(start), from_(start), walks_(wanted) {}
+
+  [[nodiscard]] IntVector id() const { return id_; }
+  [[nodiscard]] FloatMask walks() const { return walks_; }
+  // Walks that ended where the surface does not go on toward the ray, or at the ray.
+  [[nodiscard]] FloatMask is_settled() const { return is_settled_; }
+
+  // `crossing`: of the ray with the present triangles.
+  HWY_INLINE void Step(const frame::HWY_NAMESPACE::TriangleCorners<false>& corners, const Crossing& crossing,
+                       FloatMask is_blocked) {
+    const auto zero = Splat(0.0F);
+    walks_ = hn::AndNot(hn::Or(is_blocked, crossing.is_parallel), walks_);
+    const Edges edges = FindEdges(corners);
+    // Beyond edge k the corner opposite to it has a negative weight.
+    const FloatVector weights[3] = {hn::IfThenElse(edges.is_mirrored, crossing.u, crossing.v),
+                                    Splat(1.0F) - crossing.u - crossing.v,
+                                    hn::IfThenElse(edges.is_mirrored, crossing.v, crossing.u)};
+    auto lowest = zero;
+    auto next = id_;
+    auto is_open = zero > zero;
+    for (int k = 0; k < 3; ++k) {
+      const auto is_beyond = weights[k] < zero;
+      const auto leads_nowhere = SameTriangle(edges.across[k], id_);
+      is_open = hn::Or(is_open, hn::And(is_beyond, leads_nowhere));
+      // Where the surface folds back, the way on is the way back.
+      const auto leads_back = SameTriangle(edges.across[k], from_);
+      const auto is_better = hn::AndNot(hn::Or(leads_nowhere, leads_back), weights[k] < lowest);
+      lowest = hn::IfThenElse(is_better, weights[k], lowest);
+      next = hn::IfThenElse(hn::RebindMask(IntTag(), is_better), edges.across[k], next);
+    }
+    const auto has_next = lowest < zero;
+    const auto arrives_home = SameTriangle(next, own_);
+    const auto ends_well =
+        hn::Or(hn::And(has_next, arrives_home), hn::AndNot(hn::Or(has_next, is_open), walks_));
+    is_settled_ = hn::Or(is_settled_, hn::And(walks_, ends_well));
+    walks_ = hn::AndNot(arrives_home, hn::And(walks_, has_next));
+    from_ = id_;
+    id_ = hn::IfThenElse(hn::RebindMask(IntTag(), walks_), next, id_);
+  }
+
+ private:
+  struct Edges {
+    IntVector across[3];  // the triangle itself where there is none
+    FloatMask is_mirrored;
+  };
+
+  static FloatMask SameTriangle(IntVector a, IntVector b) { return hn::RebindMask(FloatTag(), a == b); }
+
+  HWY_INLINE Edges FindEdges(const frame::HWY_NAMESPACE::TriangleCorners<false>& corners) const {
+    const IntTag di;
+    const auto source = hn::GatherIndex(di, neighbours_.sources.data(), corners.Clusters());
+    const auto in_cluster = hn::And(id_, SplatInt(kTrianglesPerCluster - 1));
+    const auto triangle = hn::ShiftLeft<kTriangleBits>(hn::ShiftRight<1>(source)) + in_cluster;
+    const auto first = triangle + triangle + triangle;
+    const std::int32_t* steps = neighbours_.meshes->steps.data();
+    Edges edges;
+    for (int k = 0; k < 3; ++k) edges.across[k] = id_ + hn::GatherIndex(di, steps + k, first);
+    edges.is_mirrored = hn::RebindMask(FloatTag(), hn::And(source, SplatInt(1)) != hn::Zero(di));
+    return edges;
+  }
+
+  const frame::TriangleNeighbours& neighbours_;
+  IntVector own_, id_, from_;
+  FloatMask walks_;
+  FloatMask is_settled_ = Splat(0.0F) > Splat(0.0F);
+};
+
+template <bool kOrthographic>
+HWY_INLINE Crossing TestTriangles(const ShadowMapTest& test, const BoundDepthMap& bound, const Places& places,
+                                  const frame::HWY_NAMESPACE::TriangleCorners<false>& corners,
+                                  FloatMask wanted, Blocking& blocking) {
+  const auto zero = Splat(0.0F);
+  const auto at = corners.Positions();
+  Crossing of_centre;
+  for (int i = 0; i < test.positions; ++i) {
+    const Crossing crossing = FindCrossing<kOrthographic>(bound, at, places.position_ws[i]);
+    const auto far_enough = crossing.distance_squared > places.near * places.near;
+    auto blocks = hn::And(hn::And(crossing.meets, far_enough), wanted);
+    const frame::HWY_NAMESPACE::Weights weights = {crossing.u, crossing.v, zero, zero, zero, zero};
+    blocks = hn::AndNot(frame::HWY_NAMESPACE::FindHoles(*test.frame, corners, weights, blocks), blocks);
+    const auto is_beyond = crossing.distance_squared > places.beyond[i] * places.beyond[i];
+    blocking.any[i] = hn::Or(blocking.any[i], blocks);
+    blocking.beyond[i] = hn::Or(blocking.beyond[i], hn::And(blocks, is_beyond));
+    if (i == 0) of_centre = crossing;
+  }
+  return of_centre;
+}
+
 template <bool kOrthographic>
 HWY_INLINE Blocking TestSuspects(const ShadowMapTest& test, const BoundDepthMap& bound, const Places& places,
                                  const Suspects& suspects, IntVector own) {
@@ -246,20 +344,20 @@ HWY_INLINE Blocking TestSuspects(const ShadowMapTest& test, const BoundDepthMap&
     const auto wanted = hn::Not(hn::RebindMask(d, suspects.id[slot] == own));
     if (hn::AllFalse(d, wanted)) break;
     const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*test.frame, suspects.id[slot]);
-    const auto at = corners.Positions();
-    for (int i = 0; i < test.positions; ++i) {
-      const Crossing crossing = FindCrossing<kOrthographic>(bound, at, places.position_ws[i]);
-      const auto far_enough = crossing.distance_squared > places.near * places.near;
-      auto blocks = hn::And(hn::And(crossing.meets, far_enough), wanted);
-      const frame::HWY_NAMESPACE::Weights weights = {crossing.u, crossing.v, zero, zero, zero, zero};
-      blocks = hn::AndNot(frame::HWY_NAMESPACE::FindHoles(*test.frame, corners, weights, blocks), blocks);
-      const auto is_beyond = crossing.distance_squared > places.beyond[i] * places.beyond[i];
-      blocking.any[i] = hn::Or(blocking.any[i], blocks);
-      blocking.beyond[i] = hn::Or(blocking.beyond[i], hn::And(blocks, is_beyond));
-      if (i == 0) {
-        blocking.dark = blocking.dark + hn::IfThenElseZero(crossing.is_small, suspects.far_weight[slot]);
+    const Crossing crossing = TestTriangles<kOrthographic>(test, bound, places, corners, wanted, blocking);
+    auto is_settled = hn::Not(crossing.is_small);
+    if (test.neighbours != nullptr) {
+      Walk walk(test, suspects.id[slot], own, wanted);
+      walk.Step(corners, crossing, blocking.any[0]);
+      for (int step = 0; step < kMostSteps && !hn::AllFalse(d, walk.walks()); ++step) {
+        const frame::HWY_NAMESPACE::TriangleCorners<false> next(*test.frame, walk.id());
+        const Crossing there =
+            TestTriangles<kOrthographic>(test, bound, places, next, walk.walks(), blocking);
+        walk.Step(next, there, blocking.any[0]);
       }
+      is_settled = hn::Or(is_settled, walk.is_settled());
     }
+    blocking.dark = blocking.dark + hn::IfThenZeroElse(is_settled, suspects.far_weight[slot]);
   }
   return blocking;
 }

@@ -49,13 +49,19 @@ ShadowBias bias_of(const ShadowSettings& settings) {
 }
 
 ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
-                     const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
-                     InstructionSet set, std::function<bool()> asks_to_stop)
+                     const frame::Frame& frame, const frame::TriangleNeighbours* neighbours,
+                     const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set,
+                     std::function<bool()> asks_to_stop)
     : maps_(maps.begin(), maps.end()), asks_to_stop_(std::move(asks_to_stop)) {
   for (const auto& map : maps) test_.maps.push_back(bind(*map, ray));
   test_.bias = bias_of(planned.settings);
   test_.filter = filter_of(planned.settings);
   test_.frame = &frame;
+  // Where only some faces cast shadows, the map knows which; their neighbours may be of the other kind.
+  if (neighbours != nullptr && !neighbours->sources.empty() &&
+      planned.settings.caster_faces == CasterFaces::both) {
+    test_.neighbours = neighbours;
+  }
   // Several samples per pixel antialias shadows' edges by themselves.
   test_.positions = samples_per_pixel > 1 ? 1 : 5;
   for (int i = 0; i < 4; ++i) {
