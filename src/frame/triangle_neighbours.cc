@@ -13,8 +13,6 @@ namespace laterna::frame {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-// Of the triangles about an edge's end so many are looked at. A fan may have any number; its edges' other ends do not.
-constexpr std::uint32_t kMostCandidates = 64;
 
 std::uint32_t hash_of(const glm::vec3& p) {
   // −0 and 0 are one place.
@@ -41,81 +39,71 @@ std::vector<std::uint32_t> join_positions(std::span<const glm::vec3> positions) 
 
 using Corners = std::array<std::uint32_t, 3>;
 
-// One primitive's triangles by their joined corners, numbered as its clusters have them.
-class JoinedTriangles {
- public:
-  JoinedTriangles(const ClusteredPrimitive& clustered, std::span<const glm::vec3> positions)
-      : clustered_(clustered), joined_(join_positions(positions)), first_(positions.size() + 1) {
-    // Counted, then sorted by corner.
-    for_each([&](std::uint32_t, const Corners& corners) {
-      for (const std::uint32_t v : corners) ++first_[v + 1];
-    });
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    about_.resize(first_.back());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for_each([&](std::uint32_t id, const Corners& corners) {
-      for (const std::uint32_t v : corners) about_[next[v]++] = id;
-    });
-  }
-
-  // Those with three corners apart.
-  template <class Visit>
-  void for_each(Visit visit) const {
-    for (std::uint32_t c = 0; c < clustered_.clusters.size(); ++c) {
-      for (std::uint32_t t = 0; t < clustered_.clusters[c].triangle_count; ++t) {
-        const std::uint32_t id = c << kTriangleBits | t;
-        const Corners corners = corners_of(id);
-        if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
-          visit(id, corners);
-      }
+// Calls visit(id, corners) for one primitive's triangles, with their joined corners, numbered as its clusters have them.
+// Triangles without three places to their corners are left out: their neighbours share an edge with each other.
+template <class Visit>
+void for_each_triangle(const ClusteredPrimitive& clustered, const std::vector<std::uint32_t>& joined,
+                       const Visit& visit) {
+  for (std::uint32_t c = 0; c < clustered.clusters.size(); ++c) {
+    const ClusteredPrimitive::Extent& extent = clustered.clusters[c];
+    const std::uint32_t* source = clustered.source_vertices.data() + extent.first_vertex;
+    for (std::uint32_t t = 0; t < extent.triangle_count; ++t) {
+      const std::uint32_t id = c << kTriangleBits | t;
+      const std::uint32_t packed = clustered.corners[id];
+      const Corners corners = {joined[source[packed & 255U]], joined[source[packed >> 8U & 255U]],
+                               joined[source[packed >> 16U & 255U]]};
+      if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+        visit(id, corners);
     }
   }
+}
 
-  // The next triangle with an edge between these corners, in the ring of all that have it; `id` where there is none.
-  [[nodiscard]] std::uint32_t across(std::uint32_t id, std::uint32_t a, std::uint32_t b) const {
-    const std::uint32_t end = count_about(a) <= count_about(b) ? a : b;
-    const std::uint32_t other = end == a ? b : a;
-    const std::uint32_t count = std::min(count_about(end), kMostCandidates);
-    const std::uint32_t* candidates = about_.data() + first_[end];
-    std::uint32_t earlier = id;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t candidate = candidates[i];
-      if (candidate == id || (candidate < id && earlier != id)) continue;
-      const Corners corners = corners_of(candidate);
-      if (std::find(corners.begin(), corners.end(), other) == corners.end()) continue;
-      if (candidate > id) return candidate;
-      earlier = candidate;
-    }
-    return earlier;
+// A triangle's edge, listed at the lower of its two ends.
+struct ListedEdge {
+  std::uint32_t other_end;
+  std::uint32_t edge;  // 4 · triangle + edge
+  bool operator<(const ListedEdge& b) const {
+    return other_end != b.other_end ? other_end < b.other_end : edge < b.edge;
   }
-
- private:
-  [[nodiscard]] Corners corners_of(std::uint32_t id) const {
-    const std::uint32_t packed = clustered_.corners[id];
-    const std::uint32_t* source =
-        clustered_.source_vertices.data() + clustered_.clusters[id >> kTriangleBits].first_vertex;
-    return {joined_[source[packed & 255U]], joined_[source[packed >> 8U & 255U]],
-            joined_[source[packed >> 16U & 255U]]};
-  }
-  [[nodiscard]] std::uint32_t count_about(std::uint32_t vertex) const {
-    return first_[vertex + 1] - first_[vertex];
-  }
-
-  const ClusteredPrimitive& clustered_;
-  std::vector<std::uint32_t> joined_;
-  std::vector<std::uint32_t> first_;  // by vertex, into about_
-  std::vector<std::uint32_t> about_;  // triangles about it, in order
 };
+
+// Edges between the same two ends form a ring.
+void link(std::span<const ListedEdge> ring, std::int32_t* steps) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const std::uint32_t from = ring[i].edge;
+    const std::uint32_t to = ring[i + 1 < ring.size() ? i + 1 : 0].edge;
+    steps[3 * std::size_t{from >> 2U} + (from & 3U)] = static_cast<std::int32_t>((to >> 2U) - (from >> 2U));
+  }
+}
 
 void write_steps(const ClusteredPrimitive& clustered, std::span<const glm::vec3> positions,
                  std::int32_t* steps) {
-  const JoinedTriangles triangles(clustered, positions);
-  triangles.for_each([&](std::uint32_t id, const Corners& corners) {
-    for (std::size_t edge = 0; edge < 3; ++edge) {
-      const std::uint32_t neighbour = triangles.across(id, corners[edge], corners[(edge + 1) % 3]);
-      steps[3 * std::size_t{id} + edge] = static_cast<std::int32_t>(neighbour - id);
+  const std::vector<std::uint32_t> joined = join_positions(positions);
+  const auto for_each_edge = [&](auto visit) {
+    for_each_triangle(clustered, joined, [&](std::uint32_t id, const Corners& corners) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(corners[k], corners[k == 2 ? 0 : k + 1]);
+        visit(low, ListedEdge{high, id << 2U | k});
+      }
+    });
+  };
+  // Counted, put in the lists of their ends, and each list sorted by the other end.
+  std::vector<std::uint32_t> end_of_list(positions.size() + 1, 0);
+  for_each_edge([&](std::uint32_t low, const ListedEdge&) { ++end_of_list[low + 1]; });
+  for (std::size_t v = 1; v < end_of_list.size(); ++v) end_of_list[v] += end_of_list[v - 1];
+  std::vector<ListedEdge> edges(end_of_list.back());
+  // What is a list's start becomes its end while it is filled.
+  for_each_edge([&](std::uint32_t low, const ListedEdge& edge) { edges[end_of_list[low]++] = edge; });
+  std::size_t first = 0;
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const std::size_t end = end_of_list[v];
+    std::sort(edges.begin() + static_cast<std::ptrdiff_t>(first),
+              edges.begin() + static_cast<std::ptrdiff_t>(end));
+    for (std::size_t next = first; first < end; first = next) {
+      while (next < end && edges[next].other_end == edges[first].other_end) ++next;
+      link(std::span(edges).subspan(first, next - first), steps);
     }
-  });
+  }
 }
 
 // Where each primitive's clusters start among those of all.

@@ -251,12 +251,13 @@ class Walk {
   // Walks that ended where the surface does not go on toward the ray, or at the ray.
   [[nodiscard]] FloatMask is_settled() const { return is_settled_; }
 
-  // `crossing`: of the ray with the present triangles.
-  HWY_INLINE void Step(const frame::HWY_NAMESPACE::TriangleCorners<false>& corners, const Crossing& crossing,
-                       FloatMask is_blocked) {
+  // Goes on from the present triangles, which the rays meet at `crossing`; false: none does.
+  HWY_INLINE bool Step(const Crossing& crossing, FloatMask is_blocked) {
+    const FloatTag d;
     const auto zero = Splat(0.0F);
     walks_ = hn::AndNot(hn::Or(is_blocked, crossing.is_parallel), walks_);
-    const Edges edges = FindEdges(corners);
+    if (hn::AllFalse(d, walks_)) return false;
+    const Edges edges = FindEdges();
     // Beyond edge k the corner opposite to it has a negative weight.
     const FloatVector weights[3] = {hn::IfThenElse(edges.is_mirrored, crossing.u, crossing.v),
                                     Splat(1.0F) - crossing.u - crossing.v,
@@ -282,6 +283,7 @@ class Walk {
     walks_ = hn::AndNot(arrives_home, hn::And(walks_, has_next));
     from_ = id_;
     id_ = hn::IfThenElse(hn::RebindMask(IntTag(), walks_), next, id_);
+    return !hn::AllFalse(d, walks_);
   }
 
  private:
@@ -292,9 +294,10 @@ class Walk {
 
   static FloatMask SameTriangle(IntVector a, IntVector b) { return hn::RebindMask(FloatTag(), a == b); }
 
-  HWY_INLINE Edges FindEdges(const frame::HWY_NAMESPACE::TriangleCorners<false>& corners) const {
+  HWY_INLINE Edges FindEdges() const {
     const IntTag di;
-    const auto source = hn::GatherIndex(di, neighbours_.sources.data(), corners.Clusters());
+    const auto cluster = hn::BitCast(di, hn::ShiftRight<kTriangleBits>(hn::BitCast(UintTag(), id_)));
+    const auto source = hn::GatherIndex(di, neighbours_.sources.data(), cluster);
     const auto in_cluster = hn::And(id_, SplatInt(kTrianglesPerCluster - 1));
     const auto triangle = hn::ShiftLeft<kTriangleBits>(hn::ShiftRight<1>(source)) + in_cluster;
     const auto first = triangle + triangle + triangle;
@@ -311,25 +314,46 @@ class Walk {
   FloatMask is_settled_ = Splat(0.0F) > Splat(0.0F);
 };
 
+// Adds triangles that stand between the light and places [first, end); returns how the ray of the first meets them.
 template <bool kOrthographic>
 HWY_INLINE Crossing TestTriangles(const ShadowMapTest& test, const BoundDepthMap& bound, const Places& places,
-                                  const frame::HWY_NAMESPACE::TriangleCorners<false>& corners,
-                                  FloatMask wanted, Blocking& blocking) {
+                                  int first, int end, IntVector id, FloatMask wanted, Blocking& blocking) {
+  const FloatTag d;
   const auto zero = Splat(0.0F);
+  const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*test.frame, id);
   const auto at = corners.Positions();
-  Crossing of_centre;
-  for (int i = 0; i < test.positions; ++i) {
+  Crossing of_first;
+  for (int i = first; i < end; ++i) {
     const Crossing crossing = FindCrossing<kOrthographic>(bound, at, places.position_ws[i]);
+    if (i == first) of_first = crossing;
     const auto far_enough = crossing.distance_squared > places.near * places.near;
     auto blocks = hn::And(hn::And(crossing.meets, far_enough), wanted);
+    if (hn::AllFalse(d, blocks)) continue;
     const frame::HWY_NAMESPACE::Weights weights = {crossing.u, crossing.v, zero, zero, zero, zero};
     blocks = hn::AndNot(frame::HWY_NAMESPACE::FindHoles(*test.frame, corners, weights, blocks), blocks);
     const auto is_beyond = crossing.distance_squared > places.beyond[i] * places.beyond[i];
     blocking.any[i] = hn::Or(blocking.any[i], blocks);
     blocking.beyond[i] = hn::Or(blocking.beyond[i], hn::And(blocks, is_beyond));
-    if (i == 0) of_centre = crossing;
   }
-  return of_centre;
+  return of_first;
+}
+
+// Looks on from suspects that the centre's ray missed at `crossing`. The other places are tested with the triangle where
+// the walk ends: what blocks the centre, or comes nearest to it. Returns which walks were settled.
+template <bool kOrthographic>
+HWY_INLINE FloatMask TestBeyondSuspects(const ShadowMapTest& test, const BoundDepthMap& bound,
+                                        const Places& places, Walk walk, Crossing crossing,
+                                        Blocking& blocking) {
+  const FloatTag d;
+  auto has_walked = Splat(0.0F) > Splat(0.0F);
+  for (int step = 0; step < kMostSteps && walk.Step(crossing, blocking.any[0]); ++step) {
+    has_walked = hn::Or(has_walked, walk.walks());
+    crossing = TestTriangles<kOrthographic>(test, bound, places, 0, 1, walk.id(), walk.walks(), blocking);
+  }
+  if (test.positions > 1 && !hn::AllFalse(d, has_walked)) {
+    TestTriangles<kOrthographic>(test, bound, places, 1, test.positions, walk.id(), has_walked, blocking);
+  }
+  return walk.is_settled();
 }
 
 template <bool kOrthographic>
@@ -341,21 +365,16 @@ HWY_INLINE Blocking TestSuspects(const ShadowMapTest& test, const BoundDepthMap&
   blocking.dark = zero;
   for (int i = 0; i < test.positions; ++i) blocking.any[i] = blocking.beyond[i] = zero > zero;
   for (int slot = 0; slot < Suspects::kMost; ++slot) {
-    const auto wanted = hn::Not(hn::RebindMask(d, suspects.id[slot] == own));
+    const IntVector id = suspects.id[slot];
+    const auto wanted = hn::Not(hn::RebindMask(d, id == own));
     if (hn::AllFalse(d, wanted)) break;
-    const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*test.frame, suspects.id[slot]);
-    const Crossing crossing = TestTriangles<kOrthographic>(test, bound, places, corners, wanted, blocking);
+    const Crossing crossing =
+        TestTriangles<kOrthographic>(test, bound, places, 0, test.positions, id, wanted, blocking);
     auto is_settled = hn::Not(crossing.is_small);
     if (test.neighbours != nullptr) {
-      Walk walk(test, suspects.id[slot], own, wanted);
-      walk.Step(corners, crossing, blocking.any[0]);
-      for (int step = 0; step < kMostSteps && !hn::AllFalse(d, walk.walks()); ++step) {
-        const frame::HWY_NAMESPACE::TriangleCorners<false> next(*test.frame, walk.id());
-        const Crossing there =
-            TestTriangles<kOrthographic>(test, bound, places, next, walk.walks(), blocking);
-        walk.Step(next, there, blocking.any[0]);
-      }
-      is_settled = hn::Or(is_settled, walk.is_settled());
+      const Walk walk(test, id, own, wanted);
+      is_settled = hn::Or(is_settled,
+                          TestBeyondSuspects<kOrthographic>(test, bound, places, walk, crossing, blocking));
     }
     blocking.dark = blocking.dark + hn::IfThenZeroElse(is_settled, suspects.far_weight[slot]);
   }
