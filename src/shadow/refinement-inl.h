@@ -153,45 +153,75 @@ struct Crossing {
   FloatMask is_small;            // seen from the light, the triangle hardly covers a texel
 };
 
-// Möller and Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
+// Rays toward the light against N triangles. Möller and Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
 template <bool kOrthographic>
-HWY_INLINE Crossing FindCrossing(const BoundDepthMap& bound, const frame::HWY_NAMESPACE::CornerVectors& at,
-                                 const Vector3& point) {
-  const auto zero = Splat(0.0F), one = Splat(1.0F);
-  // Toward the light: as far as it is, or without end.
-  Vector3 ray = Splat3(bound.axis_ws);
-  auto length_squared = one;
-  if constexpr (!kOrthographic) {
-    ray = Splat3(bound.eye_ws) - point;
-    length_squared = Dot(ray, ray);
+class RayTest {
+ public:
+  HWY_INLINE RayTest(const BoundDepthMap& bound, const frame::HWY_NAMESPACE::CornerVectors& at)
+      : bound_(bound), a_(at.a), u_edge_(at.b - at.a), v_edge_(at.c - at.a) {
+    if constexpr (kOrthographic) parallel_ = FindBundle(Splat3(bound.axis_ws), Splat(1.0F));
   }
-  const Vector3 u_edge = at.b - at.a, v_edge = at.c - at.a;
-  const Vector3 p = Cross(ray, v_edge);
-  const auto determinant = Dot(u_edge, p);
-  Crossing crossing;
-  crossing.is_parallel = hn::Abs(determinant) <= Splat(1e-20F);
-  const auto inverse = one / hn::IfThenElse(crossing.is_parallel, one, determinant);
-  const Vector3 s = point - at.a;
-  const Vector3 q = Cross(s, u_edge);
-  const auto t = Dot(v_edge, q) * inverse;
-  crossing.u = Dot(s, p) * inverse;
-  crossing.v = Dot(ray, q) * inverse;
-  crossing.distance_squared = t * t * length_squared;
-  // Edges are shared: what rounding takes from one triangle the other does not always get.
-  const auto hair = Splat(-1e-6F);
-  auto meets =
-      hn::And(hn::And(crossing.u >= hair, crossing.v >= hair), crossing.u + crossing.v <= one - hair);
-  meets = hn::And(meets, t > zero);
-  if constexpr (!kOrthographic) meets = hn::And(meets, t < one);
-  crossing.meets = hn::AndNot(crossing.is_parallel, meets);
-  // |determinant| is twice the area across the ray, times its length. A texel there is texel_size · distance wide.
-  // Orthographic: area = |determinant| / 2. Perspective: |determinant| / (2 |ray|) against (texel_size (1 − t) |ray|)².
-  const auto side = kOrthographic ? Splat(bound.texel_size) : Splat(bound.texel_size) * (one - t);
-  auto texel_area = side * side;
-  if constexpr (!kOrthographic) texel_area = texel_area * length_squared * hn::Sqrt(length_squared);
-  crossing.is_small = hn::Abs(determinant) < Splat(2 * kSmallTexels) * texel_area;
-  return crossing;
-}
+
+  HWY_INLINE Crossing From(const Vector3& point) const {
+    const auto zero = Splat(0.0F), one = Splat(1.0F);
+    // Toward the light: as far as it is, or without end.
+    Bundle rays;
+    if constexpr (kOrthographic) {
+      rays = parallel_;
+    } else {
+      const Vector3 ray = Splat3(bound_.eye_ws) - point;
+      rays = FindBundle(ray, Dot(ray, ray));
+    }
+    const Vector3 s = point - a_;
+    const Vector3 q = Cross(s, u_edge_);
+    const auto t = Dot(v_edge_, q) * rays.inverse;
+    Crossing crossing;
+    crossing.is_parallel = rays.is_parallel;
+    crossing.u = Dot(s, rays.p) * rays.inverse;
+    crossing.v = Dot(rays.direction, q) * rays.inverse;
+    crossing.distance_squared = t * t * rays.length_squared;
+    // Edges are shared: what rounding takes from one triangle the other does not always get.
+    const auto hair = Splat(-1e-6F);
+    auto meets =
+        hn::And(hn::And(crossing.u >= hair, crossing.v >= hair), crossing.u + crossing.v <= one - hair);
+    meets = hn::And(meets, t > zero);
+    if constexpr (!kOrthographic) meets = hn::And(meets, t < one);
+    crossing.meets = hn::AndNot(rays.is_parallel, meets);
+    // |determinant| is twice the area across the ray, times its length. A texel there is texel_size · distance wide.
+    // Orthographic: area = |determinant| / 2. Perspective: |determinant| / (2 |ray|) against (texel_size (1 − t) |ray|)².
+    const auto side = kOrthographic ? Splat(bound_.texel_size) : Splat(bound_.texel_size) * (one - t);
+    auto texel_area = side * side;
+    if constexpr (!kOrthographic)
+      texel_area = texel_area * rays.length_squared * hn::Sqrt(rays.length_squared);
+    crossing.is_small = hn::Abs(rays.determinant) < Splat(2 * kSmallTexels) * texel_area;
+    return crossing;
+  }
+
+ private:
+  // What depends on the rays' direction alone.
+  struct Bundle {
+    Vector3 direction;
+    FloatVector length_squared;
+    Vector3 p;
+    FloatVector determinant, inverse;
+    FloatMask is_parallel;
+  };
+  HWY_INLINE Bundle FindBundle(const Vector3& direction, FloatVector length_squared) const {
+    const auto one = Splat(1.0F);
+    Bundle rays;
+    rays.direction = direction;
+    rays.length_squared = length_squared;
+    rays.p = Cross(direction, v_edge_);
+    rays.determinant = Dot(u_edge_, rays.p);
+    rays.is_parallel = hn::Abs(rays.determinant) <= Splat(1e-20F);
+    rays.inverse = one / hn::IfThenElse(rays.is_parallel, one, rays.determinant);
+    return rays;
+  }
+
+  const BoundDepthMap& bound_;
+  Vector3 a_, u_edge_, v_edge_;
+  Bundle parallel_{};  // orthographic
+};
 
 // ---------------------------------------------------------------------------------------------- places
 
@@ -321,10 +351,10 @@ HWY_INLINE Crossing TestTriangles(const ShadowMapTest& test, const BoundDepthMap
   const FloatTag d;
   const auto zero = Splat(0.0F);
   const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*test.frame, id);
-  const auto at = corners.Positions();
+  const RayTest<kOrthographic> rays(bound, corners.Positions());
   Crossing of_first;
   for (int i = first; i < end; ++i) {
-    const Crossing crossing = FindCrossing<kOrthographic>(bound, at, places.position_ws[i]);
+    const Crossing crossing = rays.From(places.position_ws[i]);
     if (i == first) of_first = crossing;
     const auto far_enough = crossing.distance_squared > places.near * places.near;
     auto blocks = hn::And(hn::And(crossing.meets, far_enough), wanted);
