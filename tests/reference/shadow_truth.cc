@@ -317,6 +317,9 @@ ShadowErrors find_shadow_errors(const ShadowMasks& masks) {
       (is_lit ? errors.far_false_lit : errors.far_false_dark) += is_far ? 1 : 0;
       double& farthest = is_lit ? errors.farthest_false_lit : errors.farthest_false_dark;
       farthest = std::max(farthest, distance);
+      const bool is_contact =
+          is_lit && !masks.is_blocked(glm::dvec3(sample.position_ws), kContactTexels * sample.footprint);
+      if (is_contact) errors.contact_gap = std::max(errors.contact_gap, distance);
     }
   }
   return errors;
@@ -326,9 +329,10 @@ std::string to_string(const ShadowErrors& e) {
   return fmt::format(
       "{} pixels, false dark {} ({} far, at most {:.2f} texels), false lit {} ({} far, at most {:.2f} "
       "texels), "
-      "edge pixels {} ({} mismatched, {:.4f} % right), wrong {:.4f} %",
+      "contact gap {:.2f} texels, edge pixels {} ({} mismatched, {:.4f} % right), wrong {:.4f} %",
       e.pixels, e.false_dark, e.far_false_dark, e.farthest_false_dark, e.false_lit, e.far_false_lit,
-      e.farthest_false_lit, e.edge_pixels, e.edge_mismatches, 100 * e.edge_share(), 100 * e.wrong_share());
+      e.farthest_false_lit, e.contact_gap, e.edge_pixels, e.edge_mismatches, 100 * e.edge_share(),
+      100 * e.wrong_share());
 }
 
 }  // namespace laterna::reference
