@@ -56,8 +56,7 @@ struct ShadowErrors {
   int far_false_dark = 0, far_false_lit = 0;
   /// Largest distance of a false pixel from the nearest true boundary, in texels.
   double farthest_false_dark = 0, farthest_false_lit = 0;
-  /// Of false lit pixels where a true shadow begins at what touches the surface, and nothing farther than
-  /// kContactTexels blocks the light: the largest such distance.
+  /// Of false lit pixels whose shadow is thrown from within kContactTexels: the largest distance from where it begins.
   double contact_gap = 0;
   int edge_pixels = 0;      ///< pixels at a true boundary, and all false ones
   int edge_mismatches = 0;  ///< of these, false by kEdgeTexels or more
