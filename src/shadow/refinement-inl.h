@@ -31,7 +31,7 @@ constexpr float kNearSlopes = 0.5F;
 constexpr float kBeyondTexels = 0.25F;
 struct FourGaps {
   FloatMask is_lit[4];  // what the texel saw stands neither before the receiver's plane nor before the sample
-  FloatMask is_far[4];  // it stands before both, and is no neighbourhood
+  FloatMask is_far[4];  // it stands before both, and is the neighbourhood of neither
 };
 
 HWY_INLINE FourGaps FindGaps(const MapReader& reader, const Receiver& r, const Quad& quad) {
@@ -51,7 +51,9 @@ HWY_INLINE FourGaps FindGaps(const MapReader& reader, const Receiver& r, const Q
     const auto is_beyond_plane = hn::Not(IsLit(tested, stored, beyond));
     const auto shades_sample = hn::And(is_before_sample, is_beyond_plane);
     gaps.is_lit[k] = hn::Or(is_outside, hn::AndNot(shades_sample, IsLit(stored, tested, r.rounding)));
-    gaps.is_far[k] = hn::AndNot(is_outside, hn::AndNot(IsLit(stored, tested, near), is_before_sample));
+    // Where the light only grazes the plane, that runs far from the sample within a texel.
+    const auto is_near = hn::Or(IsLit(stored, tested, near), IsLit(stored, r.q, near));
+    gaps.is_far[k] = hn::Not(hn::Or(is_outside, is_near));
   }
   return gaps;
 }
