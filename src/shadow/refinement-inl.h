@@ -146,9 +146,13 @@ HWY_INLINE Suspects FindSuspects(const MapReader& reader, const Points& points, 
 // A triangle that the light sees smaller than this many texels may have neighbours that no texel saw.
 constexpr float kSmallTexels = 2.0F;
 
+// Nearer than this many texel footprints a ray may still be leaving its own surface.
+constexpr float kCertainTexels = 1.0F;
+
 // Where rays from points toward the light meet triangles.
 struct Crossing {
   FloatMask meets;
+  FloatMask is_apart;            // the points lie off the triangles' planes
   FloatMask is_parallel;         // to the triangle: the weights mean nothing
   FloatVector u, v;              // weights of the second and third corner
   FloatVector distance_squared;  // from the point
@@ -161,10 +165,13 @@ class RayTest {
  public:
   HWY_INLINE RayTest(const BoundDepthMap& bound, const frame::HWY_NAMESPACE::CornerVectors& at)
       : bound_(bound), a_(at.a), u_edge_(at.b - at.a), v_edge_(at.c - at.a) {
+    const Vector3 normal = Cross(u_edge_, v_edge_);
+    normal_length_ = hn::Sqrt(Dot(normal, normal));
     if constexpr (kOrthographic) parallel_ = FindBundle(Splat3(bound.axis_ws), Splat(1.0F));
   }
 
-  HWY_INLINE Crossing From(const Vector3& point) const {
+  // `near`: less far from a triangle's plane a point may lie on it, for all that is known.
+  HWY_INLINE Crossing From(const Vector3& point, FloatVector near) const {
     const auto zero = Splat(0.0F), one = Splat(1.0F);
     // Toward the light: as far as it is, or without end.
     Bundle rays;
@@ -176,14 +183,19 @@ class RayTest {
     }
     const Vector3 s = point - a_;
     const Vector3 q = Cross(s, u_edge_);
-    const auto t = Dot(v_edge_, q) * rays.inverse;
+    const auto volume = Dot(v_edge_, q);
+    const auto t = volume * rays.inverse;
     Crossing crossing;
     crossing.is_parallel = rays.is_parallel;
+    crossing.is_apart = hn::Abs(volume) > near * normal_length_;
     crossing.u = Dot(s, rays.p) * rays.inverse;
     crossing.v = Dot(rays.direction, q) * rays.inverse;
     crossing.distance_squared = t * t * rays.length_squared;
-    // Edges are shared: what rounding takes from one triangle the other does not always get.
-    const auto hair = Splat(-1e-6F);
+    // Edges are shared: what rounding takes from one triangle the other does not always get. But what is so near that
+    // it may be the next triangle of the ray's own surface blocks only where it is met for certain.
+    const auto certain_texels = Splat(kCertainTexels * bound_.texel_size);
+    const auto is_beside = crossing.distance_squared < certain_texels * certain_texels * rays.length_squared;
+    const auto hair = hn::IfThenElse(is_beside, Splat(1e-5F), Splat(-1e-6F));
     auto meets =
         hn::And(hn::And(crossing.u >= hair, crossing.v >= hair), crossing.u + crossing.v <= one - hair);
     meets = hn::And(meets, t > zero);
@@ -222,6 +234,7 @@ class RayTest {
 
   const BoundDepthMap& bound_;
   Vector3 a_, u_edge_, v_edge_;
+  FloatVector normal_length_;
   Bundle parallel_{};  // orthographic
 };
 
@@ -236,11 +249,11 @@ constexpr float kPlaces[5][2] = {
 
 constexpr int kMostPlaces = 5;
 
-// Points of N surfaces from which rays are sent, and how near a triangle may stand without counting.
+// Points of N surfaces from which rays are sent, and what triangles do not count for them.
 struct Places {
   Vector3 position_ws[kMostPlaces];
-  FloatVector near;                 // anywhere
-  FloatVector beyond[kMostPlaces];  // where the centre is lit
+  FloatVector near;                 // those so near that the point may lie on their planes
+  FloatVector beyond[kMostPlaces];  // where the centre is lit, those that the ray meets nearer than this
 };
 
 HWY_INLINE Places FindPlaces(const Points& centre, const Slopes& slopes, float position_error, int count) {
@@ -356,10 +369,9 @@ HWY_INLINE Crossing TestTriangles(const ShadowMapTest& test, const BoundDepthMap
   const RayTest<kOrthographic> rays(bound, corners.Positions());
   Crossing of_first;
   for (int i = first; i < end; ++i) {
-    const Crossing crossing = rays.From(places.position_ws[i]);
+    const Crossing crossing = rays.From(places.position_ws[i], places.near);
     if (i == first) of_first = crossing;
-    const auto far_enough = crossing.distance_squared > places.near * places.near;
-    auto blocks = hn::And(hn::And(crossing.meets, far_enough), wanted);
+    auto blocks = hn::And(hn::And(crossing.meets, crossing.is_apart), wanted);
     if (hn::AllFalse(d, blocks)) continue;
     const frame::HWY_NAMESPACE::Weights weights = {crossing.u, crossing.v, zero, zero, zero, zero};
     blocks = hn::AndNot(frame::HWY_NAMESPACE::FindHoles(*test.frame, corners, weights, blocks), blocks);
