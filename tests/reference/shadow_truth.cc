@@ -207,7 +207,10 @@ double probed_distance(const ShadowMasks& masks, const ShadowSample& sample, boo
 
 // Of a false lit sample: texels from where its shadow begins, if what throws it is near.
 double contact_gap(const ShadowMasks& masks, const ShadowSample& sample, double distance) {
-  if (masks.is_blocked(glm::dvec3(sample.position_ws), kContactTexels * sample.footprint)) return 0;
+  const glm::dvec3 position_ws(sample.position_ws);
+  if (masks.is_blocked(position_ws, kContactTexels * sample.footprint)) return 0;
+  // Sheets laid on one another are not told apart: the picture's samples lie on one or the other.
+  if (!masks.is_blocked(position_ws, kCoincidentTexels * sample.footprint)) return 0;
   constexpr double kSurface = 0.05;  // of a texel: the surface itself
   return std::min(distance, nearest_on_plane(masks, sample, true, kSurface * sample.footprint));
 }
