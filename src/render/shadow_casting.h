@@ -16,8 +16,8 @@
 
 namespace laterna::render {
 
-/// What shadow techniques of one picture are made of. `ray_scene` and `caster_tree` are asked for where a technique needs
-/// them.
+/// What shadow techniques of one picture are made of. `ray_scene`, `caster_tree` and `neighbours` are asked for where a
+/// technique needs them.
 struct CastingContext {
   const frame::Frame& frame;
   const TaskPool& pool;

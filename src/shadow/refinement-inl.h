@@ -146,8 +146,10 @@ HWY_INLINE Suspects FindSuspects(const MapReader& reader, const Points& points, 
 // A triangle that the light sees smaller than this many texels may have neighbours that no texel saw.
 constexpr float kSmallTexels = 2.0F;
 
-// Nearer than this many texel footprints a ray may still be leaving its own surface.
-constexpr float kCertainTexels = 1.0F;
+// Light grazes a surface where the cosine between its normal and the light is less than this.
+constexpr float kGrazingCosine = 0.01F;
+// Nearer than this many texel footprints a ray that grazes a surface may still be leaving it.
+constexpr float kBesideTexels = 1.0F;
 
 // Where rays from points toward the light meet triangles.
 struct Crossing {
@@ -170,8 +172,9 @@ class RayTest {
     if constexpr (kOrthographic) parallel_ = FindBundle(Splat3(bound.axis_ws), Splat(1.0F));
   }
 
-  // `near`: less far from a triangle's plane a point may lie on it, for all that is known.
-  HWY_INLINE Crossing From(const Vector3& point, FloatVector near) const {
+  // `error`: of the points' places. Less far from a triangle's plane a point may lie on it, for all that is known; a ray
+  // along that plane would meet the triangle anywhere.
+  HWY_INLINE Crossing From(const Vector3& point, float error, FloatMask is_grazing) const {
     const auto zero = Splat(0.0F), one = Splat(1.0F);
     // Toward the light: as far as it is, or without end.
     Bundle rays;
@@ -187,15 +190,16 @@ class RayTest {
     const auto t = volume * rays.inverse;
     Crossing crossing;
     crossing.is_parallel = rays.is_parallel;
-    crossing.is_apart = hn::Abs(volume) > near * normal_length_;
+    crossing.is_apart = hn::Abs(volume) > Splat(error) * normal_length_;
     crossing.u = Dot(s, rays.p) * rays.inverse;
     crossing.v = Dot(rays.direction, q) * rays.inverse;
     crossing.distance_squared = t * t * rays.length_squared;
-    // Edges are shared: what rounding takes from one triangle the other does not always get. But what is so near that
-    // it may be the next triangle of the ray's own surface blocks only where it is met for certain.
-    const auto certain_texels = Splat(kCertainTexels * bound_.texel_size);
-    const auto is_beside = crossing.distance_squared < certain_texels * certain_texels * rays.length_squared;
-    const auto hair = hn::IfThenElse(is_beside, Splat(1e-5F), Splat(-1e-6F));
+    // Edges are shared: what rounding takes from one triangle the other does not always get.
+    auto hair = Splat(-1e-6F);
+    // But a ray along its own surface must not be stopped by the edge over which it leaves it.
+    const auto beside = Splat(kBesideTexels * bound_.texel_size);
+    const auto is_beside = crossing.distance_squared < beside * beside * rays.length_squared;
+    hair = hn::IfThenElse(hn::And(is_grazing, is_beside), Splat(1e-5F), hair);
     auto meets =
         hn::And(hn::And(crossing.u >= hair, crossing.v >= hair), crossing.u + crossing.v <= one - hair);
     meets = hn::And(meets, t > zero);
@@ -249,17 +253,20 @@ constexpr float kPlaces[5][2] = {
 
 constexpr int kMostPlaces = 5;
 
-// Points of N surfaces from which rays are sent, and what triangles do not count for them.
+// Points of N surfaces from which rays are sent, and how near a triangle may stand without counting.
 struct Places {
   Vector3 position_ws[kMostPlaces];
-  FloatVector near;                 // those so near that the point may lie on their planes
-  FloatVector beyond[kMostPlaces];  // where the centre is lit, those that the ray meets nearer than this
+  float error;                      // of the positions
+  FloatMask is_grazing;             // the light of this map hardly falls on the surface
+  FloatVector near;                 // anywhere
+  FloatVector beyond[kMostPlaces];  // where the centre is lit
 };
 
 HWY_INLINE Places FindPlaces(const Points& centre, const Slopes& slopes, float position_error, int count) {
   Places places;
   // Corners were snapped: at its rim a triangle may have been given samples that lie on its plane a little beside it.
   const auto pixel = hn::Sqrt(Dot(slopes.dp_dx, slopes.dp_dx)) + hn::Sqrt(Dot(slopes.dp_dy, slopes.dp_dy));
+  places.error = position_error;
   places.near = Splat(2 * position_error) + pixel * Splat(1.0F / raster::kSubpixels);
   places.position_ws[0] = centre.position_ws;
   places.beyond[0] = places.near;
@@ -369,9 +376,10 @@ HWY_INLINE Crossing TestTriangles(const ShadowMapTest& test, const BoundDepthMap
   const RayTest<kOrthographic> rays(bound, corners.Positions());
   Crossing of_first;
   for (int i = first; i < end; ++i) {
-    const Crossing crossing = rays.From(places.position_ws[i], places.near);
+    const Crossing crossing = rays.From(places.position_ws[i], places.error, places.is_grazing);
     if (i == first) of_first = crossing;
-    auto blocks = hn::And(hn::And(crossing.meets, crossing.is_apart), wanted);
+    const auto far_enough = crossing.distance_squared > places.near * places.near;
+    auto blocks = hn::And(hn::And(crossing.meets, hn::And(crossing.is_apart, far_enough)), wanted);
     if (hn::AllFalse(d, blocks)) continue;
     const frame::HWY_NAMESPACE::Weights weights = {crossing.u, crossing.v, zero, zero, zero, zero};
     blocks = hn::AndNot(frame::HWY_NAMESPACE::FindHoles(*test.frame, corners, weights, blocks), blocks);
@@ -443,13 +451,22 @@ HWY_INLINE FloatVector MeanArrival(const Blocking& blocking, int count) {
   return hn::IfThenElse(is_lit, hn::Max(sum * share, majority), hn::Min(sum * share, one - majority));
 }
 
+// Whether the light runs along the surface.
+HWY_INLINE FloatMask IsGrazing(const BoundDepthMap& bound, const Points& points) {
+  Vector3 ray = Splat3(bound.axis_ws);
+  if (!bound.is_orthographic) ray = Splat3(bound.eye_ws) - points.position_ws;
+  const auto limit = Splat(kGrazingCosine) * hn::Sqrt(Dot(ray, ray));
+  return hn::Abs(Dot(points.normal_ws, ray)) < limit;
+}
+
 HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const SurfaceSamples& s,
                                       const Points& points, const Slopes& slopes, IntVector own) {
-  const Places places = FindPlaces(points, slopes, s.position_error, test.positions);
+  Places places = FindPlaces(points, slopes, s.position_error, test.positions);
   auto result = Splat(1.0F);
   ForEachMap(test, points.position_ws, [&](const BoundDepthMap& map, FloatMask here) HWY_ATTR {
     const MapReader reader(test, map, s.position_error);
     const Suspects suspects = FindSuspects(reader, points, own, here);
+    places.is_grazing = IsGrazing(map, points);
     const Blocking blocking = map.is_orthographic ? TestSuspects<true>(test, map, places, suspects, own)
                                                   : TestSuspects<false>(test, map, places, suspects, own);
     const auto alpha = MeanArrival(blocking, test.positions);
