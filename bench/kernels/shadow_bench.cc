@@ -27,7 +27,7 @@ void look_up(benchmark::State& state, InstructionSet set, ShadowFilter filter, W
   light::PlannedLight& planned = plan.lights[static_cast<std::size_t>(FloorLight::slide)];
   planned.settings.filter = filter;
   const std::vector maps = {draw_map(frame, planned.shadow_views[0], set)};
-  const shadow::ShadowMap technique(planned, maps, frame, floor.samples->ray, 1, set);
+  const shadow::ShadowMap technique(planned, maps, frame, nullptr, floor.samples->ray, 1, set);
   const auto arrival = std::make_unique<shadow::Arrival>();
   const shadow::SampleArray<float>& alpha = arrival->alpha;
   measure(state, "pixels", shadow::kMaxSamples,

@@ -38,34 +38,28 @@ std::vector<PlacedPart> place_parts(const Scene& scene, const ClusteredMeshes& m
                                     const std::vector<glm::dmat4>& world_from_node, Frame& frame) {
   const auto default_surface = static_cast<std::uint32_t>(scene.materials.size());
   std::vector<PlacedPart> placed;
-  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-    const Node& node = scene.nodes[n];
-    if (node.mesh < 0) continue;
-    const std::size_t instances = node.node_from_instance.empty() ? 1 : node.node_from_instance.size();
-    for (std::size_t k = 0; k < instances; ++k) {
-      const glm::dmat4 world_from_object = node.node_from_instance.empty()
-                                               ? world_from_node[n]
-                                               : world_from_node[n] * node.node_from_instance[k];
-      const auto object = static_cast<std::uint32_t>(frame.object_names.size());
-      const auto mesh = static_cast<std::size_t>(node.mesh);
-      std::string name = node.name.empty() ? scene.meshes[mesh].name : node.name;
-      if (!node.node_from_instance.empty()) name += "[" + std::to_string(k) + "]";
-      frame.object_names.push_back(std::move(name));
-      for (std::size_t p = 0; p < meshes[mesh].size(); ++p) {
-        const Primitive& primitive = scene.meshes[mesh].primitives[p];
-        placed.push_back(
-            {&primitive,
-             &meshes[mesh][p],
-             world_from_object,
-             object,
-             primitive.material < 0 ? default_surface : static_cast<std::uint32_t>(primitive.material),
-             node_flags(node) | material_flags(scene, primitive.material),
-             0,
-             0,
-             {}});
-      }
-    }
-  }
+  for_each_object(
+      scene, world_from_node,
+      [&](const Node& node, std::size_t instance, const glm::dmat4& world_from_object) {
+        const auto object = static_cast<std::uint32_t>(frame.object_names.size());
+        const auto mesh = static_cast<std::size_t>(node.mesh);
+        std::string name = node.name.empty() ? scene.meshes[mesh].name : node.name;
+        if (!node.node_from_instance.empty()) name += "[" + std::to_string(instance) + "]";
+        frame.object_names.push_back(std::move(name));
+        for (std::size_t p = 0; p < meshes[mesh].size(); ++p) {
+          const Primitive& primitive = scene.meshes[mesh].primitives[p];
+          placed.push_back(
+              {&primitive,
+               &meshes[mesh][p],
+               world_from_object,
+               object,
+               primitive.material < 0 ? default_surface : static_cast<std::uint32_t>(primitive.material),
+               node_flags(node) | material_flags(scene, primitive.material),
+               0,
+               0,
+               {}});
+        }
+      });
   return placed;
 }
 
@@ -117,7 +111,7 @@ class PartWriter {
       : placed_(placed),
         frame_(frame),
         normal_matrix_(glm::transpose(glm::inverse(glm::dmat3(placed.world_from_object)))),
-        is_mirrored_(glm::determinant(glm::dmat3(placed.world_from_object)) < 0) {}
+        is_mirrored_(is_mirroring(placed.world_from_object)) {}
 
   void write() {
     write_vertices();
@@ -252,6 +246,22 @@ std::size_t count_clusters(const Scene& scene, const ClusteredMeshes& meshes) {
     count += of_mesh * std::max<std::size_t>(node.node_from_instance.size(), 1);
   }
   return count;
+}
+
+void for_each_object(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
+                     const std::function<void(const Node& node, std::size_t instance,
+                                              const glm::dmat4& world_from_object)>& visit) {
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    const Node& node = scene.nodes[n];
+    if (node.mesh < 0) continue;
+    if (node.node_from_instance.empty()) visit(node, 0, world_from_node[n]);
+    for (std::size_t k = 0; k < node.node_from_instance.size(); ++k)
+      visit(node, k, world_from_node[n] * node.node_from_instance[k]);
+  }
+}
+
+bool is_mirroring(const glm::dmat4& world_from_object) {
+  return glm::determinant(glm::dmat3(world_from_object)) < 0;
 }
 
 void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,

@@ -85,6 +85,7 @@ struct Renderer::Implementation {
     rays.reset();
     casters.reset();
     panes.reset();
+    neighbours.reset();
     return {};
   }
 
@@ -112,6 +113,20 @@ struct Renderer::Implementation {
     return tree;
   }
 
+  // Which triangle lies across each edge: found when a shadow first asks, placed anew when casters have moved.
+  const frame::TriangleNeighbours* triangle_neighbours() const {
+    const std::lock_guard lock(casters_mutex);
+    if (mesh_neighbours == nullptr) {
+      mesh_neighbours =
+          std::make_shared<const frame::MeshNeighbours>(frame::find_mesh_neighbours(scene, meshes, pool));
+    }
+    if (neighbours == nullptr) {
+      neighbours = std::make_unique<const frame::TriangleNeighbours>(
+          frame::place_neighbours(mesh_neighbours, scene, meshes));
+    }
+    return neighbours.get();
+  }
+
   // Everything the tiles share, with every shadow technique ready to answer.
   shade::ShaderJob make_job(const raster::RasterView& view, const RenderSettings& settings,
                             const light::LightPlan& plan, RenderStatistics& statistics,
@@ -130,10 +145,10 @@ struct Renderer::Implementation {
     job.wanted = render::wanted_layers(settings);
     job.instruction_set = set;
     const raster::RasterView::Ray ray = view.homogeneous_ray();
-    render::ShadowCasting casting({frame, pool, set, casters_revision, bins, maps,
-                                   [this] { return ray_scene(); },
-                                   [this](shadow::CasterTree::Casters which) { return caster_tree(which); },
-                                   view, settings, statistics, progress});
+    render::ShadowCasting casting(
+        {frame, pool, set, casters_revision, bins, maps, [this] { return ray_scene(); },
+         [this](shadow::CasterTree::Casters which) { return caster_tree(which); },
+         [this] { return triangle_neighbours(); }, view, settings, statistics, progress});
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
@@ -193,6 +208,8 @@ struct Renderer::Implementation {
   mutable std::mutex casters_mutex;
   mutable std::shared_ptr<const trace::RayScene> rays;
   mutable std::shared_ptr<const shadow::CasterTree> casters, panes;
+  mutable std::shared_ptr<const frame::MeshNeighbours> mesh_neighbours;
+  mutable std::unique_ptr<const frame::TriangleNeighbours> neighbours;
 };
 
 Renderer::Renderer(std::unique_ptr<Implementation> implementation)

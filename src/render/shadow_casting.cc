@@ -69,6 +69,10 @@ DepthMaps ShadowCasting::find_maps(const light::PlannedLight& planned, std::size
   return found.maps;
 }
 
+const frame::TriangleNeighbours* ShadowCasting::find_neighbours(const light::PlannedLight& planned) {
+  return shadow::filter_of(planned.settings) == ShadowFilter::refined ? context_.neighbours() : nullptr;
+}
+
 bool ShadowCasting::complete(const DepthMaps& maps) {
   ProgressReport& progress = context_.progress;
   const auto asks_to_stop = [&progress] { return progress.asks_to_stop(); };
@@ -84,8 +88,9 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::Pl
   ProgressReport& progress = context_.progress;
   const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
   report_memory(planned, maps, 0);
-  return std::make_unique<shadow::ShadowMap>(planned, maps, context_.frame, context_.camera.homogeneous_ray(),
-                                             context_.settings.samples, context_.instruction_set,
+  return std::make_unique<shadow::ShadowMap>(planned, maps, context_.frame, find_neighbours(planned),
+                                             context_.camera.homogeneous_ray(), context_.settings.samples,
+                                             context_.instruction_set,
                                              [&progress] { return progress.asks_to_stop(); });
 }
 
@@ -130,8 +135,8 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_soft_map(const ligh
   const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
   if (!complete(maps)) return nullptr;
   auto technique = std::make_unique<shadow::SoftShadowMap>(
-      planned, maps, context_.frame, context_.camera.homogeneous_ray(), context_.settings.samples,
-      context_.instruction_set, context_.pool);
+      planned, maps, context_.frame, find_neighbours(planned), context_.camera.homogeneous_ray(),
+      context_.settings.samples, context_.instruction_set, context_.pool);
   report_memory(planned, maps, technique->memory_bytes());
   return technique;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "frame/triangle_neighbours.h"
 #include "laterna/render.h"
 #include "light/light_plan.h"
 #include "render/depth_map_cache.h"
@@ -15,8 +16,8 @@
 
 namespace laterna::render {
 
-/// What shadow techniques of one picture are made of. `ray_scene` and `caster_tree` are asked for where a technique needs
-/// them.
+/// What shadow techniques of one picture are made of. `ray_scene`, `caster_tree` and `neighbours` are asked for where a
+/// technique needs them.
 struct CastingContext {
   const frame::Frame& frame;
   const TaskPool& pool;
@@ -26,6 +27,7 @@ struct CastingContext {
   DepthMapCache& maps;
   std::function<std::shared_ptr<const trace::RayScene>()> ray_scene;
   std::function<std::shared_ptr<const shadow::CasterTree>(shadow::CasterTree::Casters)> caster_tree;
+  std::function<const frame::TriangleNeighbours*()> neighbours;
   const raster::RasterView& camera;
   const RenderSettings& settings;
   RenderStatistics& statistics;
@@ -55,6 +57,8 @@ class ShadowCasting {
   // The light's maps; their tiles are drawn when asked for.
   [[nodiscard]] DepthMaps find_maps(const light::PlannedLight& planned, std::size_t index,
                                     bool keeps_triangles);
+  // Where the filter asks for them, and null elsewhere.
+  [[nodiscard]] const frame::TriangleNeighbours* find_neighbours(const light::PlannedLight& planned);
   // All tiles at once. False: the caller asks to stop, and there is nothing to be made of the maps.
   [[nodiscard]] bool complete(const DepthMaps& maps);
   void report_memory(const light::PlannedLight& planned, const DepthMaps& maps, std::size_t more_bytes);

@@ -31,7 +31,7 @@ constexpr float kNearSlopes = 0.5F;
 constexpr float kBeyondTexels = 0.25F;
 struct FourGaps {
   FloatMask is_lit[4];  // what the texel saw stands neither before the receiver's plane nor before the sample
-  FloatMask is_far[4];  // it stands before both, and is no neighbourhood
+  FloatMask is_far[4];  // it stands before both, and is the neighbourhood of neither
 };
 
 HWY_INLINE FourGaps FindGaps(const MapReader& reader, const Receiver& r, const Quad& quad) {
@@ -51,7 +51,9 @@ HWY_INLINE FourGaps FindGaps(const MapReader& reader, const Receiver& r, const Q
     const auto is_beyond_plane = hn::Not(IsLit(tested, stored, beyond));
     const auto shades_sample = hn::And(is_before_sample, is_beyond_plane);
     gaps.is_lit[k] = hn::Or(is_outside, hn::AndNot(shades_sample, IsLit(stored, tested, r.rounding)));
-    gaps.is_far[k] = hn::AndNot(is_outside, hn::AndNot(IsLit(stored, tested, near), is_before_sample));
+    // Where the light only grazes the plane, that runs far from the sample within a texel.
+    const auto is_near = hn::Or(IsLit(stored, tested, near), IsLit(stored, r.q, near));
+    gaps.is_far[k] = hn::Not(hn::Or(is_outside, is_near));
   }
   return gaps;
 }
@@ -144,53 +146,101 @@ HWY_INLINE Suspects FindSuspects(const MapReader& reader, const Points& points, 
 // A triangle that the light sees smaller than this many texels may have neighbours that no texel saw.
 constexpr float kSmallTexels = 2.0F;
 
+// Light grazes a surface where the cosine between its normal and the light is less than this.
+constexpr float kGrazingCosine = 0.01F;
+// Nearer than this many texel footprints a ray that grazes a surface may still be leaving it.
+constexpr float kBesideTexels = 1.0F;
+
 // Where rays from points toward the light meet triangles.
 struct Crossing {
   FloatMask meets;
+  FloatMask is_apart;            // the points lie off the triangles' planes
+  FloatMask is_parallel;         // to the triangle: the weights mean nothing
   FloatVector u, v;              // weights of the second and third corner
   FloatVector distance_squared;  // from the point
   FloatMask is_small;            // seen from the light, the triangle hardly covers a texel
 };
 
-// Möller and Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
+// Rays toward the light against N triangles. Möller and Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
 template <bool kOrthographic>
-HWY_INLINE Crossing FindCrossing(const BoundDepthMap& bound, const frame::HWY_NAMESPACE::CornerVectors& at,
-                                 const Vector3& point) {
-  const auto zero = Splat(0.0F), one = Splat(1.0F);
-  // Toward the light: as far as it is, or without end.
-  Vector3 ray = Splat3(bound.axis_ws);
-  auto length_squared = one;
-  if constexpr (!kOrthographic) {
-    ray = Splat3(bound.eye_ws) - point;
-    length_squared = Dot(ray, ray);
+class RayTest {
+ public:
+  HWY_INLINE RayTest(const BoundDepthMap& bound, const frame::HWY_NAMESPACE::CornerVectors& at)
+      : bound_(bound), a_(at.a), u_edge_(at.b - at.a), v_edge_(at.c - at.a) {
+    const Vector3 normal = Cross(u_edge_, v_edge_);
+    normal_length_ = hn::Sqrt(Dot(normal, normal));
+    if constexpr (kOrthographic) parallel_ = FindBundle(Splat3(bound.axis_ws), Splat(1.0F));
   }
-  const Vector3 u_edge = at.b - at.a, v_edge = at.c - at.a;
-  const Vector3 p = Cross(ray, v_edge);
-  const auto determinant = Dot(u_edge, p);
-  const auto is_parallel = hn::Abs(determinant) <= Splat(1e-20F);
-  const auto inverse = one / hn::IfThenElse(is_parallel, one, determinant);
-  const Vector3 s = point - at.a;
-  const Vector3 q = Cross(s, u_edge);
-  const auto t = Dot(v_edge, q) * inverse;
-  Crossing crossing;
-  crossing.u = Dot(s, p) * inverse;
-  crossing.v = Dot(ray, q) * inverse;
-  crossing.distance_squared = t * t * length_squared;
-  // Edges are shared: what rounding takes from one triangle the other does not always get.
-  const auto hair = Splat(-1e-6F);
-  auto meets =
-      hn::And(hn::And(crossing.u >= hair, crossing.v >= hair), crossing.u + crossing.v <= one - hair);
-  meets = hn::And(meets, t > zero);
-  if constexpr (!kOrthographic) meets = hn::And(meets, t < one);
-  crossing.meets = hn::AndNot(is_parallel, meets);
-  // |determinant| is twice the area across the ray, times its length. A texel there is texel_size · distance wide.
-  // Orthographic: area = |determinant| / 2. Perspective: |determinant| / (2 |ray|) against (texel_size (1 − t) |ray|)².
-  const auto side = kOrthographic ? Splat(bound.texel_size) : Splat(bound.texel_size) * (one - t);
-  auto texel_area = side * side;
-  if constexpr (!kOrthographic) texel_area = texel_area * length_squared * hn::Sqrt(length_squared);
-  crossing.is_small = hn::Abs(determinant) < Splat(2 * kSmallTexels) * texel_area;
-  return crossing;
-}
+
+  // `error`: of the points' places. Less far from a triangle's plane a point may lie on it, for all that is known; a ray
+  // along that plane would meet the triangle anywhere.
+  HWY_INLINE Crossing From(const Vector3& point, float error, FloatMask is_grazing) const {
+    const auto zero = Splat(0.0F), one = Splat(1.0F);
+    // Toward the light: as far as it is, or without end.
+    Bundle rays;
+    if constexpr (kOrthographic) {
+      rays = parallel_;
+    } else {
+      const Vector3 ray = Splat3(bound_.eye_ws) - point;
+      rays = FindBundle(ray, Dot(ray, ray));
+    }
+    const Vector3 s = point - a_;
+    const Vector3 q = Cross(s, u_edge_);
+    const auto volume = Dot(v_edge_, q);
+    const auto t = volume * rays.inverse;
+    Crossing crossing;
+    crossing.is_parallel = rays.is_parallel;
+    crossing.is_apart = hn::Abs(volume) > Splat(error) * normal_length_;
+    crossing.u = Dot(s, rays.p) * rays.inverse;
+    crossing.v = Dot(rays.direction, q) * rays.inverse;
+    crossing.distance_squared = t * t * rays.length_squared;
+    // Edges are shared: what rounding takes from one triangle the other does not always get.
+    auto hair = Splat(-1e-6F);
+    // But a ray along its own surface must not be stopped by the edge over which it leaves it.
+    const auto beside = Splat(kBesideTexels * bound_.texel_size);
+    const auto is_beside = crossing.distance_squared < beside * beside * rays.length_squared;
+    hair = hn::IfThenElse(hn::And(is_grazing, is_beside), Splat(1e-5F), hair);
+    auto meets =
+        hn::And(hn::And(crossing.u >= hair, crossing.v >= hair), crossing.u + crossing.v <= one - hair);
+    meets = hn::And(meets, t > zero);
+    if constexpr (!kOrthographic) meets = hn::And(meets, t < one);
+    crossing.meets = hn::AndNot(rays.is_parallel, meets);
+    // |determinant| is twice the area across the ray, times its length. A texel there is texel_size · distance wide.
+    // Orthographic: area = |determinant| / 2. Perspective: |determinant| / (2 |ray|) against (texel_size (1 − t) |ray|)².
+    const auto side = kOrthographic ? Splat(bound_.texel_size) : Splat(bound_.texel_size) * (one - t);
+    auto texel_area = side * side;
+    if constexpr (!kOrthographic)
+      texel_area = texel_area * rays.length_squared * hn::Sqrt(rays.length_squared);
+    crossing.is_small = hn::Abs(rays.determinant) < Splat(2 * kSmallTexels) * texel_area;
+    return crossing;
+  }
+
+ private:
+  // What depends on the rays' direction alone.
+  struct Bundle {
+    Vector3 direction;
+    FloatVector length_squared;
+    Vector3 p;
+    FloatVector determinant, inverse;
+    FloatMask is_parallel;
+  };
+  HWY_INLINE Bundle FindBundle(const Vector3& direction, FloatVector length_squared) const {
+    const auto one = Splat(1.0F);
+    Bundle rays;
+    rays.direction = direction;
+    rays.length_squared = length_squared;
+    rays.p = Cross(direction, v_edge_);
+    rays.determinant = Dot(u_edge_, rays.p);
+    rays.is_parallel = hn::Abs(rays.determinant) <= Splat(1e-20F);
+    rays.inverse = one / hn::IfThenElse(rays.is_parallel, one, rays.determinant);
+    return rays;
+  }
+
+  const BoundDepthMap& bound_;
+  Vector3 a_, u_edge_, v_edge_;
+  FloatVector normal_length_;
+  Bundle parallel_{};  // orthographic
+};
 
 // ---------------------------------------------------------------------------------------------- places
 
@@ -206,6 +256,8 @@ constexpr int kMostPlaces = 5;
 // Points of N surfaces from which rays are sent, and how near a triangle may stand without counting.
 struct Places {
   Vector3 position_ws[kMostPlaces];
+  float error;                      // of the positions
+  FloatMask is_grazing;             // the light of this map hardly falls on the surface
   FloatVector near;                 // anywhere
   FloatVector beyond[kMostPlaces];  // where the centre is lit
 };
@@ -214,6 +266,7 @@ HWY_INLINE Places FindPlaces(const Points& centre, const Slopes& slopes, float p
   Places places;
   // Corners were snapped: at its rim a triangle may have been given samples that lie on its plane a little beside it.
   const auto pixel = hn::Sqrt(Dot(slopes.dp_dx, slopes.dp_dx)) + hn::Sqrt(Dot(slopes.dp_dy, slopes.dp_dy));
+  places.error = position_error;
   places.near = Splat(2 * position_error) + pixel * Splat(1.0F / raster::kSubpixels);
   places.position_ws[0] = centre.position_ws;
   places.beyond[0] = places.near;
@@ -234,6 +287,127 @@ struct Blocking {
   FloatVector dark;  // weight of texels that saw something far in front and too small to be sure of
 };
 
+// From a suspect that the ray misses, so many steps are made at most. Where triangles are so much smaller than texels
+// that these do not lead to the ray, what the texels saw decides.
+constexpr int kMostSteps = 8;
+
+// N walks over surfaces, each from a suspect toward the ray: from triangle to triangle, always across the edge beyond
+// which the ray passes the plane.
+class Walk {
+ public:
+  Walk(const ShadowMapTest& test, IntVector start, IntVector own, FloatMask wanted)
+      : neighbours_(*test.neighbours), own_(own), id_(start), from_(start), walks_(wanted) {}
+
+  [[nodiscard]] IntVector id() const { return id_; }
+  [[nodiscard]] FloatMask walks() const { return walks_; }
+  // Walks that ended where the surface does not go on toward the ray, or at the ray.
+  [[nodiscard]] FloatMask is_settled() const { return is_settled_; }
+
+  // Goes on from the present triangles, which the rays meet at `crossing`; false: none does.
+  HWY_INLINE bool Step(const Crossing& crossing, FloatMask is_blocked) {
+    const FloatTag d;
+    const auto zero = Splat(0.0F);
+    walks_ = hn::AndNot(hn::Or(is_blocked, crossing.is_parallel), walks_);
+    if (hn::AllFalse(d, walks_)) return false;
+    const Edges edges = FindEdges();
+    // Beyond edge k the corner opposite to it has a negative weight.
+    const FloatVector weights[3] = {hn::IfThenElse(edges.is_mirrored, crossing.u, crossing.v),
+                                    Splat(1.0F) - crossing.u - crossing.v,
+                                    hn::IfThenElse(edges.is_mirrored, crossing.v, crossing.u)};
+    auto lowest = zero;
+    auto next = id_;
+    auto is_open = zero > zero;
+    for (int k = 0; k < 3; ++k) {
+      const auto is_beyond = weights[k] < zero;
+      const auto leads_nowhere = SameTriangle(edges.across[k], id_);
+      is_open = hn::Or(is_open, hn::And(is_beyond, leads_nowhere));
+      // Where the surface folds back, the way on is the way back.
+      const auto leads_back = SameTriangle(edges.across[k], from_);
+      const auto is_better = hn::AndNot(hn::Or(leads_nowhere, leads_back), weights[k] < lowest);
+      lowest = hn::IfThenElse(is_better, weights[k], lowest);
+      next = hn::IfThenElse(hn::RebindMask(IntTag(), is_better), edges.across[k], next);
+    }
+    const auto has_next = lowest < zero;
+    const auto arrives_home = SameTriangle(next, own_);
+    const auto ends_well =
+        hn::Or(hn::And(has_next, arrives_home), hn::AndNot(hn::Or(has_next, is_open), walks_));
+    is_settled_ = hn::Or(is_settled_, hn::And(walks_, ends_well));
+    walks_ = hn::AndNot(arrives_home, hn::And(walks_, has_next));
+    from_ = id_;
+    id_ = hn::IfThenElse(hn::RebindMask(IntTag(), walks_), next, id_);
+    return !hn::AllFalse(d, walks_);
+  }
+
+ private:
+  struct Edges {
+    IntVector across[3];  // the triangle itself where there is none
+    FloatMask is_mirrored;
+  };
+
+  static FloatMask SameTriangle(IntVector a, IntVector b) { return hn::RebindMask(FloatTag(), a == b); }
+
+  HWY_INLINE Edges FindEdges() const {
+    const IntTag di;
+    const auto cluster = hn::BitCast(di, hn::ShiftRight<kTriangleBits>(hn::BitCast(UintTag(), id_)));
+    const auto source = hn::GatherIndex(di, neighbours_.sources.data(), cluster);
+    const auto in_cluster = hn::And(id_, SplatInt(kTrianglesPerCluster - 1));
+    const auto triangle = hn::ShiftLeft<kTriangleBits>(hn::ShiftRight<1>(source)) + in_cluster;
+    const auto first = triangle + triangle + triangle;
+    const std::int32_t* steps = neighbours_.meshes->steps.data();
+    Edges edges;
+    for (int k = 0; k < 3; ++k) edges.across[k] = id_ + hn::GatherIndex(di, steps + k, first);
+    edges.is_mirrored = hn::RebindMask(FloatTag(), hn::And(source, SplatInt(1)) != hn::Zero(di));
+    return edges;
+  }
+
+  const frame::TriangleNeighbours& neighbours_;
+  IntVector own_, id_, from_;
+  FloatMask walks_;
+  FloatMask is_settled_ = Splat(0.0F) > Splat(0.0F);
+};
+
+// Adds triangles that stand between the light and places [first, end); returns how the ray of the first meets them.
+template <bool kOrthographic>
+HWY_INLINE Crossing TestTriangles(const ShadowMapTest& test, const BoundDepthMap& bound, const Places& places,
+                                  int first, int end, IntVector id, FloatMask wanted, Blocking& blocking) {
+  const FloatTag d;
+  const auto zero = Splat(0.0F);
+  const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*test.frame, id);
+  const RayTest<kOrthographic> rays(bound, corners.Positions());
+  Crossing of_first;
+  for (int i = first; i < end; ++i) {
+    const Crossing crossing = rays.From(places.position_ws[i], places.error, places.is_grazing);
+    if (i == first) of_first = crossing;
+    const auto far_enough = crossing.distance_squared > places.near * places.near;
+    auto blocks = hn::And(hn::And(crossing.meets, hn::And(crossing.is_apart, far_enough)), wanted);
+    if (hn::AllFalse(d, blocks)) continue;
+    const frame::HWY_NAMESPACE::Weights weights = {crossing.u, crossing.v, zero, zero, zero, zero};
+    blocks = hn::AndNot(frame::HWY_NAMESPACE::FindHoles(*test.frame, corners, weights, blocks), blocks);
+    const auto is_beyond = crossing.distance_squared > places.beyond[i] * places.beyond[i];
+    blocking.any[i] = hn::Or(blocking.any[i], blocks);
+    blocking.beyond[i] = hn::Or(blocking.beyond[i], hn::And(blocks, is_beyond));
+  }
+  return of_first;
+}
+
+// Looks on from suspects that the centre's ray missed at `crossing`. The other places are tested with the triangle where
+// the walk ends: what blocks the centre, or comes nearest to it. Returns which walks were settled.
+template <bool kOrthographic>
+HWY_INLINE FloatMask TestBeyondSuspects(const ShadowMapTest& test, const BoundDepthMap& bound,
+                                        const Places& places, Walk walk, Crossing crossing,
+                                        Blocking& blocking) {
+  const FloatTag d;
+  auto has_walked = Splat(0.0F) > Splat(0.0F);
+  for (int step = 0; step < kMostSteps && walk.Step(crossing, blocking.any[0]); ++step) {
+    has_walked = hn::Or(has_walked, walk.walks());
+    crossing = TestTriangles<kOrthographic>(test, bound, places, 0, 1, walk.id(), walk.walks(), blocking);
+  }
+  if (test.positions > 1 && !hn::AllFalse(d, has_walked)) {
+    TestTriangles<kOrthographic>(test, bound, places, 1, test.positions, walk.id(), has_walked, blocking);
+  }
+  return walk.is_settled();
+}
+
 template <bool kOrthographic>
 HWY_INLINE Blocking TestSuspects(const ShadowMapTest& test, const BoundDepthMap& bound, const Places& places,
                                  const Suspects& suspects, IntVector own) {
@@ -243,23 +417,18 @@ HWY_INLINE Blocking TestSuspects(const ShadowMapTest& test, const BoundDepthMap&
   blocking.dark = zero;
   for (int i = 0; i < test.positions; ++i) blocking.any[i] = blocking.beyond[i] = zero > zero;
   for (int slot = 0; slot < Suspects::kMost; ++slot) {
-    const auto wanted = hn::Not(hn::RebindMask(d, suspects.id[slot] == own));
+    const IntVector id = suspects.id[slot];
+    const auto wanted = hn::Not(hn::RebindMask(d, id == own));
     if (hn::AllFalse(d, wanted)) break;
-    const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*test.frame, suspects.id[slot]);
-    const auto at = corners.Positions();
-    for (int i = 0; i < test.positions; ++i) {
-      const Crossing crossing = FindCrossing<kOrthographic>(bound, at, places.position_ws[i]);
-      const auto far_enough = crossing.distance_squared > places.near * places.near;
-      auto blocks = hn::And(hn::And(crossing.meets, far_enough), wanted);
-      const frame::HWY_NAMESPACE::Weights weights = {crossing.u, crossing.v, zero, zero, zero, zero};
-      blocks = hn::AndNot(frame::HWY_NAMESPACE::FindHoles(*test.frame, corners, weights, blocks), blocks);
-      const auto is_beyond = crossing.distance_squared > places.beyond[i] * places.beyond[i];
-      blocking.any[i] = hn::Or(blocking.any[i], blocks);
-      blocking.beyond[i] = hn::Or(blocking.beyond[i], hn::And(blocks, is_beyond));
-      if (i == 0) {
-        blocking.dark = blocking.dark + hn::IfThenElseZero(crossing.is_small, suspects.far_weight[slot]);
-      }
+    const Crossing crossing =
+        TestTriangles<kOrthographic>(test, bound, places, 0, test.positions, id, wanted, blocking);
+    auto is_settled = hn::Not(crossing.is_small);
+    if (test.neighbours != nullptr) {
+      const Walk walk(test, id, own, wanted);
+      is_settled = hn::Or(is_settled,
+                          TestBeyondSuspects<kOrthographic>(test, bound, places, walk, crossing, blocking));
     }
+    blocking.dark = blocking.dark + hn::IfThenZeroElse(is_settled, suspects.far_weight[slot]);
   }
   return blocking;
 }
@@ -282,13 +451,22 @@ HWY_INLINE FloatVector MeanArrival(const Blocking& blocking, int count) {
   return hn::IfThenElse(is_lit, hn::Max(sum * share, majority), hn::Min(sum * share, one - majority));
 }
 
+// Whether the light runs along the surface.
+HWY_INLINE FloatMask IsGrazing(const BoundDepthMap& bound, const Points& points) {
+  Vector3 ray = Splat3(bound.axis_ws);
+  if (!bound.is_orthographic) ray = Splat3(bound.eye_ws) - points.position_ws;
+  const auto limit = Splat(kGrazingCosine) * hn::Sqrt(Dot(ray, ray));
+  return hn::Abs(Dot(points.normal_ws, ray)) < limit;
+}
+
 HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const SurfaceSamples& s,
                                       const Points& points, const Slopes& slopes, IntVector own) {
-  const Places places = FindPlaces(points, slopes, s.position_error, test.positions);
+  Places places = FindPlaces(points, slopes, s.position_error, test.positions);
   auto result = Splat(1.0F);
   ForEachMap(test, points.position_ws, [&](const BoundDepthMap& map, FloatMask here) HWY_ATTR {
     const MapReader reader(test, map, s.position_error);
     const Suspects suspects = FindSuspects(reader, points, own, here);
+    places.is_grazing = IsGrazing(map, points);
     const Blocking blocking = map.is_orthographic ? TestSuspects<true>(test, map, places, suspects, own)
                                                   : TestSuspects<false>(test, map, places, suspects, own);
     const auto alpha = MeanArrival(blocking, test.positions);

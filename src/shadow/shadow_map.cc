@@ -49,6 +49,7 @@ ShadowBias bias_of(const ShadowSettings& settings) {
 
 ShadowMapTest make_shadow_map_test(const light::PlannedLight& planned,
                                    std::span<const std::shared_ptr<DepthMap>> maps, const frame::Frame& frame,
+                                   const frame::TriangleNeighbours* neighbours,
                                    const raster::RasterView::Ray& ray, int samples_per_pixel,
                                    InstructionSet set) {
   ShadowMapTest test;
@@ -56,6 +57,11 @@ ShadowMapTest make_shadow_map_test(const light::PlannedLight& planned,
   test.bias = bias_of(planned.settings);
   test.filter = filter_of(planned.settings);
   test.frame = &frame;
+  // Where only some faces cast shadows, the map knows which; their neighbours may be of the other kind.
+  if (neighbours != nullptr && !neighbours->sources.empty() &&
+      planned.settings.caster_faces == CasterFaces::both) {
+    test.neighbours = neighbours;
+  }
   // Several samples per pixel antialias shadows' edges by themselves.
   test.positions = samples_per_pixel > 1 ? 1 : 5;
   for (int i = 0; i < 4; ++i) {
@@ -73,10 +79,11 @@ ShadowMapTest make_shadow_map_test(const light::PlannedLight& planned,
 }
 
 ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
-                     const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
-                     InstructionSet set, std::function<bool()> asks_to_stop)
+                     const frame::Frame& frame, const frame::TriangleNeighbours* neighbours,
+                     const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set,
+                     std::function<bool()> asks_to_stop)
     : maps_(maps.begin(), maps.end()),
-      test_(make_shadow_map_test(planned, maps, frame, ray, samples_per_pixel, set)),
+      test_(make_shadow_map_test(planned, maps, frame, neighbours, ray, samples_per_pixel, set)),
       asks_to_stop_(std::move(asks_to_stop)) {}
 
 double ShadowMap::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,

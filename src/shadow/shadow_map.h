@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "frame/triangle_neighbours.h"
 #include "light/light_plan.h"
 #include "shadow/depth_map.h"
 #include "shadow/projected_view.h"
@@ -44,7 +45,8 @@ struct ShadowMapTest {
   std::vector<BoundDepthMap> maps;  // one, or six cube faces in the order of light::cube_views
   ShadowBias bias;
   ShadowFilter filter = ShadowFilter::refined;
-  const frame::Frame* frame = nullptr;  // refined: where the triangles are
+  const frame::Frame* frame = nullptr;                    // refined: where the triangles are
+  const frame::TriangleNeighbours* neighbours = nullptr;  // and which are side by side; null: not known
   int kernel = 3;
   /// Refined: places in a pixel whose α is averaged at a shadow's edge, 5 or 1.
   int positions = 5;
@@ -58,14 +60,17 @@ struct ShadowMapTest {
 /// `maps` must outlive the result; all else that a look-up needs is copied from the planned light's settings.
 ShadowMapTest make_shadow_map_test(const light::PlannedLight& planned,
                                    std::span<const std::shared_ptr<DepthMap>> maps, const frame::Frame& frame,
+                                   const frame::TriangleNeighbours* neighbours,
                                    const raster::RasterView::Ray& ray, int samples_per_pixel,
                                    InstructionSet set);
 
 class ShadowMap final : public ShadowTechnique {
  public:
+  /// `neighbours`: of the frame, or null; both outlive this.
   ShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
-            const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
-            InstructionSet set, std::function<bool()> asks_to_stop = nullptr);
+            const frame::Frame& frame, const frame::TriangleNeighbours* neighbours,
+            const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set,
+            std::function<bool()> asks_to_stop = nullptr);
   /// Draws the maps' tiles that are needed first. Everything is dark once the caller has asked to stop.
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                       Arrival& arrival) const override;

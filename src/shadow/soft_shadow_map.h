@@ -53,8 +53,9 @@ class SoftShadowMap final : public ShadowTechnique {
  public:
   /// All tiles of the maps are drawn. The light has a size.
   SoftShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
-                const frame::Frame& frame, const raster::RasterView::Ray& ray, int samples_per_pixel,
-                InstructionSet set, const TaskPool& pool);
+                const frame::Frame& frame, const frame::TriangleNeighbours* neighbours,
+                const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set,
+                const TaskPool& pool);
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                       Arrival& arrival) const override;
   /// Beside the maps themselves.

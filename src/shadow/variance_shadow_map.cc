@@ -8,7 +8,7 @@ VarianceShadowMap::VarianceShadowMap(const light::PlannedLight& planned,
                                      InstructionSet set, const TaskPool& pool)
     : maps_(maps.begin(), maps.end()) {
   const ShadowSettings& settings = planned.settings;
-  test_.hard = make_shadow_map_test(planned, maps, frame, ray, 1, set);
+  test_.hard = make_shadow_map_test(planned, maps, frame, nullptr, ray, 1, set);
   test_.measure = find_depth_measure(maps, settings.depth, pool);
   test_.kind = settings.moments;
   test_.bleeding_reduction = settings.bleeding_reduction;

@@ -62,7 +62,7 @@ using Maps = std::vector<std::shared_ptr<DepthMap>>;
 
 std::vector<float> look_up(const light::PlannedLight& planned, const Maps& maps, const frame::Frame& frame,
                            const SurfaceSamples& samples, int samples_per_pixel, InstructionSet set) {
-  const ShadowMap shadow(planned, maps, frame, samples.ray, samples_per_pixel, set);
+  const ShadowMap shadow(planned, maps, frame, nullptr, samples.ray, samples_per_pixel, set);
   const auto arrival = std::make_unique<Arrival>();
   shadow.find_arrival(samples, std::span(samples.active).first(samples.group_count), *arrival);
   return {arrival->alpha.begin(), arrival->alpha.end()};

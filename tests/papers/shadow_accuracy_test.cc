@@ -29,5 +29,13 @@ TEST(ShadowAccuracy, ThinPolesAndCutOutLeavesInALowSun) {
   expect_as_promised(errors_of(poles_and_leaves(4.0 / 3)));
 }
 
+// Of the strips that throw the edge, most are seen by no texel: they are found as neighbours of those that are.
+TEST(ShadowAccuracy, FinelyMouldedLedgeInAGrazingSun) {
+  const ShadowErrors errors = errors_of(moulded_ledge(4.0 / 3));
+  expect_as_promised(errors);
+  EXPECT_LT(errors.wrong_share(), 0.0005) << to_string(errors);
+  EXPECT_LT(errors.contact_gap, 2) << to_string(errors);
+}
+
 }  // namespace
 }  // namespace laterna

@@ -43,7 +43,7 @@ TEST_P(SponzaShadow, MaskAgreesWithRays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(W1, SponzaShadow,
-                         testing::Values(Promise{"light 0", 0.012}, Promise{"light 1", 0.0035}),
+                         testing::Values(Promise{"light 0", 0.005}, Promise{"light 1", 0.002}),
                          [](const auto& instance) { return instance.index == 0 ? "Sun" : "Projector"; });
 
 }  // namespace

@@ -113,4 +113,36 @@ ShadowScene poles_and_leaves(double aspect) {
   return s;
 }
 
+ShadowScene moulded_ledge(double aspect) {
+  ShadowScene s;
+  Mesher wall;
+  wall.quad({-2, 0, 0}, {2, 0, 0}, {2, 3, 0}, {-2, 3, 0});
+  add_object(s.scene, "wall", wall.primitive);
+  // Half a cylinder lying on the wall, its ends closed.
+  constexpr int kStrips = 90;
+  constexpr float kRadius = 0.15F;
+  Mesher ledge;
+  const auto corner = [&](int k, float x) {
+    const float angle = 3.1415927F * static_cast<float>(k) / kStrips;
+    return glm::vec3(x, 2.2F + kRadius * std::cos(angle), kRadius * std::sin(angle));
+  };
+  for (int k = 0; k < kStrips; ++k) {
+    ledge.quad(corner(k, -1.5F), corner(k + 1, -1.5F), corner(k + 1, 1.5F), corner(k, 1.5F));
+    for (const float end : {-1.5F, 1.5F}) {
+      const glm::vec3 middle(end, 2.2F, 0);
+      if (end < 0) {
+        ledge.triangle(middle, corner(k + 1, end), corner(k, end));
+      } else {
+        ledge.triangle(middle, corner(k, end), corner(k + 1, end));
+      }
+    }
+  }
+  add_object(s.scene, "ledge", ledge.primitive, {0.7F, 0.6F, 0.5F});
+  Light light = sun("light");
+  light.shadow.resolution = 512;
+  add_light(s.scene, light, {0.9, 9, 0.8}, {0, 0, 0});
+  s.camera = look({-1.2, 1.6, 3.6}, {-0.2, 1.6, 0}, 42, aspect);
+  return s;
+}
+
 }  // namespace laterna::reference

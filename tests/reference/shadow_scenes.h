@@ -19,6 +19,9 @@ ShadowScene sphere_over_plane(double aspect);
 ShadowScene torus_and_box(double aspect);
 /// A grove: many thin poles with alpha-cut leaves on a floor, in a low sun.
 ShadowScene poles_and_leaves(double aspect);
+/// A wall under a ledge of a finely cut round profile, in a sun that grazes the wall and sees strips of the profile
+/// thinner than a texel.
+ShadowScene moulded_ledge(double aspect);
 
 /// The squared sheet with round holes of which leaves are made: alpha 1 inside a disc, 0 outside, with a soft rim.
 int add_leaf_picture(Scene& scene, int side);

@@ -180,13 +180,9 @@ glm::dvec3 beside(const ShadowMapFrame& map, const ShadowSample& sample, glm::dv
          direction * (glm::dot(normal, glm::dvec3(sample.position_ws) - start) / glm::dot(normal, direction));
 }
 
-// Texels from a sample to the nearest point of its plane whose light is not the sample's, up to kFarTexels.
-double probed_distance(const ShadowMasks& masks, const ShadowSample& sample, bool is_lit) {
-  // A point beside a lit sample may lie under the surface, where that bends, and must not be called dark for it.
-  const double near = 2 * sample.footprint + (is_lit ? sample.depth_slope : 0);
-  const double infinity = std::numeric_limits<double>::infinity();
-  if (masks.is_blocked(glm::dvec3(sample.position_ws), near) == is_lit)
-    return infinity;  // what blocks it is near
+// Texels from a sample to the nearest point of its plane whose light is `is_lit`, up to kFarTexels; what stands within
+// `near` of the points does not count.
+double nearest_on_plane(const ShadowMasks& masks, const ShadowSample& sample, bool is_lit, double near) {
   constexpr int kDirections = 16;
   constexpr double kStep = 0.25;
   for (double radius = kStep; radius <= kFarTexels; radius += kStep) {
@@ -194,10 +190,29 @@ double probed_distance(const ShadowMasks& masks, const ShadowSample& sample, boo
       const double angle = 2 * std::acos(-1.0) * i / kDirections;
       const glm::dvec2 texels = radius * glm::dvec2(std::cos(angle), std::sin(angle));
       const glm::dvec3 point = beside(masks.maps[static_cast<std::size_t>(sample.face)], sample, texels);
-      if (masks.is_blocked(point, near) == is_lit) return radius;
+      if (masks.is_blocked(point, near) != is_lit) return radius;
     }
   }
-  return infinity;
+  return std::numeric_limits<double>::infinity();
+}
+
+// Texels from a sample to the nearest point of its plane whose light is not the sample's, up to kFarTexels.
+double probed_distance(const ShadowMasks& masks, const ShadowSample& sample, bool is_lit) {
+  // A point beside a lit sample may lie under the surface, where that bends, and must not be called dark for it.
+  const double near = 2 * sample.footprint + (is_lit ? sample.depth_slope : 0);
+  if (masks.is_blocked(glm::dvec3(sample.position_ws), near) == is_lit)
+    return std::numeric_limits<double>::infinity();  // what blocks it is near
+  return nearest_on_plane(masks, sample, !is_lit, near);
+}
+
+// Of a false lit sample: texels from where its shadow begins, if what throws it is near.
+double contact_gap(const ShadowMasks& masks, const ShadowSample& sample, double distance) {
+  const glm::dvec3 position_ws(sample.position_ws);
+  if (masks.is_blocked(position_ws, kContactTexels * sample.footprint)) return 0;
+  // Sheets laid on one another are not told apart: the picture's samples lie on one or the other.
+  if (!masks.is_blocked(position_ws, kCoincidentTexels * sample.footprint)) return 0;
+  constexpr double kSurface = 0.05;  // of a texel: the surface itself
+  return std::min(distance, nearest_on_plane(masks, sample, true, kSurface * sample.footprint));
 }
 
 }  // namespace
@@ -317,6 +332,7 @@ ShadowErrors find_shadow_errors(const ShadowMasks& masks) {
       (is_lit ? errors.far_false_lit : errors.far_false_dark) += is_far ? 1 : 0;
       double& farthest = is_lit ? errors.farthest_false_lit : errors.farthest_false_dark;
       farthest = std::max(farthest, distance);
+      if (is_lit) errors.contact_gap = std::max(errors.contact_gap, contact_gap(masks, sample, distance));
     }
   }
   return errors;
@@ -326,9 +342,10 @@ std::string to_string(const ShadowErrors& e) {
   return fmt::format(
       "{} pixels, false dark {} ({} far, at most {:.2f} texels), false lit {} ({} far, at most {:.2f} "
       "texels), "
-      "edge pixels {} ({} mismatched, {:.4f} % right), wrong {:.4f} %",
+      "contact gap {:.2f} texels, edge pixels {} ({} mismatched, {:.4f} % right), wrong {:.4f} %",
       e.pixels, e.false_dark, e.far_false_dark, e.farthest_false_dark, e.false_lit, e.far_false_lit,
-      e.farthest_false_lit, e.edge_pixels, e.edge_mismatches, 100 * e.edge_share(), 100 * e.wrong_share());
+      e.farthest_false_lit, e.contact_gap, e.edge_pixels, e.edge_mismatches, 100 * e.edge_share(),
+      100 * e.wrong_share());
 }
 
 }  // namespace laterna::reference

@@ -56,13 +56,16 @@ struct ShadowErrors {
   int far_false_dark = 0, far_false_lit = 0;
   /// Largest distance of a false pixel from the nearest true boundary, in texels.
   double farthest_false_dark = 0, farthest_false_lit = 0;
+  /// Of false lit pixels whose shadow is thrown from between kCoincidentTexels and kContactTexels away: the largest
+  /// distance from where it begins.
+  double contact_gap = 0;
   int edge_pixels = 0;      ///< pixels at a true boundary, and all false ones
   int edge_mismatches = 0;  ///< of these, false by kEdgeTexels or more
 
   [[nodiscard]] double wrong_share() const { return static_cast<double>(false_dark + false_lit) / pixels; }
   [[nodiscard]] double edge_share() const { return 1 - static_cast<double>(edge_mismatches) / edge_pixels; }
 };
-inline constexpr double kFarTexels = 2, kEdgeTexels = 1.5;
+inline constexpr double kFarTexels = 2, kEdgeTexels = 1.5, kContactTexels = 8, kCoincidentTexels = 0.5;
 
 /// Distance is that in the map's texels, along the receiver, to the nearest place where a true shadow begins. Such places
 /// are found in the picture: halfway between neighbouring truth samples of one object of which one is lit, where the
