@@ -160,15 +160,31 @@ std::vector<ShadowView> cube_views(const Pose& pose, int resolution, int border,
   return views;
 }
 
+// The same texels, and some more to each side. Means of what a filter saw are only those about a receiver where it sees as
+// far to every side.
+ShadowView widened(ShadowView shadow, int border) {
+  Projection& p = shadow.view.projection;
+  const double x = border * (p.right - p.left) / shadow.width;
+  const double y = border * (p.top - p.bottom) / shadow.height;
+  p.left -= x;
+  p.right += x;
+  p.bottom -= y;
+  p.top += y;
+  shadow.width += 2 * border;
+  shadow.height += 2 * border;
+  return shadow;
+}
+
 std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& frame,
                                      const ShadowSettings& settings, ShadowTechnique technique) {
   const Light& light = *placed.light;
+  const int border = technique == ShadowTechnique::variance ? face_border(settings, technique) : 0;
   switch (light.type) {
     case LightType::directional:
       if (light.fit) return {fit_to_casters(placed.pose, frame, settings.resolution)};
-      return {{{placed.pose, light.projection}, settings.resolution, settings.resolution}};
+      return {widened({{placed.pose, light.projection}, settings.resolution, settings.resolution}, border)};
     case LightType::projector:
-      return {{placed.view, settings.resolution, settings.resolution}};
+      return {widened({placed.view, settings.resolution, settings.resolution}, border)};
     case LightType::spot: {
       const double half_angle = light.outer_cone.in_degrees();
       if (half_angle > kWidestSingleView) break;

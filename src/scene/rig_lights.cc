@@ -56,6 +56,8 @@ class LightReader {
         read_projector();
         break;
     }
+    // What a light can have depends on all of the above.
+    read_rig_shadow(json_, object_, faults_, light_);
     object_.report_unknown_members(fmt::format("a {}", name_of(*type)));
     if (faults_.error_count() != errors_before) return std::nullopt;
     return RigLight{std::move(light_), world_from_light_};
@@ -72,7 +74,6 @@ class LightReader {
     read_place();
     read_brightness();
     read_source();
-    read_rig_shadow(json_, object_, faults_, light_);
   }
 
   void read_place() {
