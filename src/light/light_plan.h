@@ -20,8 +20,9 @@ struct PlannedLight {
   const frame::PlacedLight* placed = nullptr;
   std::uint32_t number = 0;  // in the frame's order
   ShadowTechnique technique = ShadowTechnique::none;
-  ShadowSettings settings;               // resolution filled in
-  std::vector<ShadowView> shadow_views;  // map: one, or six for a light that shines all round
+  ShadowSettings settings;  // resolution filled in
+  std::vector<ShadowView>
+      shadow_views;  // map: one, or six for a light that shines all round; cascades: finest first
 };
 
 struct LightPlan {
@@ -34,6 +35,7 @@ struct LightPlan {
 struct PlanSettings {
   ShadowTechnique technique = ShadowTechnique::map;  // for lights that name none
   SourcePoint source_point;
+  const View* camera = nullptr;  // cascades follow it; without one there is a single map
 };
 
 LightPlan make_light_plan(const frame::Frame& frame, const PlanSettings& settings);

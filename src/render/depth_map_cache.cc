@@ -4,6 +4,7 @@
 
 #include "base/stopwatch.h"
 #include "render/depth_map_painter.h"
+#include "shadow/shadow_map.h"
 
 namespace laterna::render {
 namespace {
@@ -19,9 +20,13 @@ bool same_view(const light::ShadowView& a, const light::ShadowView& b) {
 
 }  // namespace
 
-bool DepthMapKey::operator==(const DepthMapKey& other) const {
+bool DepthMapKey::has_same_casters(const DepthMapKey& other) const {
   return faces == other.faces && keeps_triangles == other.keeps_triangles &&
-         casters_revision == other.casters_revision &&
+         casters_revision == other.casters_revision;
+}
+
+bool DepthMapKey::operator==(const DepthMapKey& other) const {
+  return has_same_casters(other) &&
          std::equal(views.begin(), views.end(), other.views.begin(), other.views.end(), same_view);
 }
 
@@ -80,12 +85,28 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
     for (const auto& map : entry.maps) settle(*map);
     return {entry.maps, 0};
   }
+  // Of cascades, those that the camera has not moved stay.
+  const bool is_same_otherwise = !anew && entry.key.has_same_casters(key);
+  DepthMaps kept(key.views.size());
+  for (std::size_t i = 0; is_same_otherwise && i < kept.size(); ++i) {
+    for (std::size_t j = 0; j < entry.maps.size() && kept[i] == nullptr; ++j) {
+      if (same_view(key.views[i], entry.key.views[j])) kept[i] = entry.maps[j];
+    }
+  }
   entry.maps.clear();
   DepthMaps maps;
-  for (const light::ShadowView& view : key.views) {
+  int made = 0;
+  for (std::size_t i = 0; i < key.views.size(); ++i) {
+    if (kept[i] != nullptr) {
+      settle(*kept[i]);
+      maps.push_back(std::move(kept[i]));
+      continue;
+    }
+    const light::ShadowView& view = key.views[i];
+    ++made;
     auto lease = outworn_.take();
     DrawContext own = context;
-    own.bins_owner = 1 + 6 * light + maps.size();  // the camera's is 0
+    own.bins_owner = 1 + shadow::kMostMaps * light + maps.size();  // the camera's is 0
     *lease = make_depth_map(own, view, key.faces, key.keeps_triangles, std::move(*lease));
     settle(*lease);
     maps.push_back(std::move(lease));
@@ -93,7 +114,7 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
   outworn_.clear();
   entry.key = key;
   entry.maps = std::move(maps);
-  return {entry.maps, static_cast<int>(entry.maps.size())};
+  return {entry.maps, made};
 }
 
 void DepthMapCache::rest() {

@@ -28,6 +28,7 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light:
                                                                     std::size_t index) {
   switch (planned.technique) {
     case ShadowTechnique::map:
+    case ShadowTechnique::cascades:
       return make_map(planned, index);
     case ShadowTechnique::exact:
       return make_exact(planned);

@@ -8,6 +8,7 @@ namespace laterna {
 namespace {
 
 constexpr std::uint64_t kMaxShadowResolution = 16384;
+constexpr std::uint64_t kMostCascades = 8;
 
 void read_technique(JsonObject& shadow, Light& light) {
   std::vector<std::pair<std::string_view, ShadowTechnique>> choices;
@@ -47,6 +48,13 @@ void read_map(JsonObject& shadow, ShadowSettings& settings) {
       shadow.choice<bool>("outside", {{"lit", true}, {"shadowed", false}}).value_or(true);
 }
 
+void read_cascades(JsonObject& shadow, ShadowSettings& settings) {
+  if (const auto count = shadow.whole("cascades", 1, kMostCascades))
+    settings.cascades = static_cast<int>(*count);
+  settings.split_lambda = shadow.number("split_lambda", kZeroToOne).value_or(settings.split_lambda);
+  settings.cascade_distance = shadow.number("cascade_distance", kPositiveLength).value_or(0);
+}
+
 void read_darkness(JsonObject& shadow, ShadowSettings& settings) {
   if (const auto color = shadow.numbers<3>("color", kZeroToOne)) {
     settings.color = glm::vec3((*color)[0], (*color)[1], (*color)[2]);
@@ -75,6 +83,7 @@ void read_rig_shadow(const JsonDocument& json, JsonObject& object, FaultList& fa
   JsonObject shadow(json, *value, faults);
   read_technique(shadow, light);
   read_map(shadow, light.shadow);
+  read_cascades(shadow, light.shadow);
   read_darkness(shadow, light.shadow);
   shadow.report_unknown_members("a shadow");
 }

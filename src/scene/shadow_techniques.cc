@@ -5,10 +5,12 @@
 namespace laterna {
 namespace {
 
-constexpr std::array<TechniqueDescription, 4> kTechniques = {{
+constexpr std::array<TechniqueDescription, 5> kTechniques = {{
     {ShadowTechnique::none, "none", "light passes through everything"},
     {ShadowTechnique::map, "map",
      "shadow maps, biased by the receiver's plane and the texel's footprint (default)"},
+    {ShadowTechnique::cascades, "cascades",
+     "several shadow maps for a sun, finer toward the camera: for scenes much larger than what is near"},
     {ShadowTechnique::exact, "exact",
      "hard shadows to the last bit: every sample against every triangle in its way, without a map"},
     {ShadowTechnique::raytraced, "raytraced",
@@ -20,7 +22,8 @@ constexpr std::array<TechniqueDescription, 4> kTechniques = {{
 std::span<const TechniqueDescription> list_techniques() { return kTechniques; }
 
 std::string find_fault(ShadowTechnique technique, const Light& light) {
-  static_cast<void>(light);
+  if (technique == ShadowTechnique::cascades && light.type != LightType::directional)
+    return "cascades share out the parallel light of a directional light: other lights have \"map\"";
   for (const TechniqueDescription& known : kTechniques) {
     if (known.technique == technique) return "";
   }

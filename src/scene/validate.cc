@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kMaxShadowResolution = 16384;
 constexpr int kLeastKernel = 2, kMostKernel = 9;
+constexpr int kMostCascades = 8;
 
 std::string item(std::string_view list, std::size_t index) { return fmt::format("{}[{}]", list, index); }
 
@@ -347,6 +348,11 @@ void Validator::check_shadow(const ShadowSettings& shadow, const std::string& pl
     fault(place + ".kernel",
           fmt::format("expected from {} to {}, got {}", kLeastKernel, kMostKernel, shadow.kernel));
   }
+  if (shadow.cascades < 1 || shadow.cascades > kMostCascades) {
+    fault(place + ".cascades", fmt::format("expected from 1 to {}, got {}", kMostCascades, shadow.cascades));
+  }
+  check_number(place + ".split_lambda", shadow.split_lambda, 0, 1);
+  check_number(place + ".cascade_distance", shadow.cascade_distance, 0, kMaxCoordinate);
   check_color(place + ".color", shadow.color, 1);
   check_number(place + ".opacity", shadow.opacity, 0, 1);
   check_number(place + ".ambient", shadow.ambient, 0, 1);

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "base/vectors-inl.h"
+#include "light/cascades.h"
 #include "shadow/depth_comparison-inl.h"
 #include "shadow/projected_view-inl.h"
 #include "shadow/shadow_map.h"
@@ -242,14 +243,24 @@ class MapReader {
   float position_error_;
 };
 
-// Which map each point asks: the face of the cube through which the ray from the light leaves it.
+// A map's part in the answer for N points.
+struct Share {
+  FloatMask here;       // of the points that ask it
+  FloatVector weight;   // less than 1 where the map is blended over those visited before
+  bool blends = false;  // whether there are such points
+};
+
+// An answer laid over those before it. What is equal stays so bit for bit.
+HWY_INLINE FloatVector LayOver(const Share& share, FloatVector value, FloatVector below) {
+  if (!share.blends) return hn::IfThenElse(share.here, value, below);
+  const auto blended = below + (value - below) * share.weight;
+  return hn::IfThenElse(share.here, hn::IfThenElse(share.weight < Splat(1.0F), blended, value), below);
+}
+
+// The face of the cube through which the ray from the light leaves it.
 template <class Visit>
-HWY_INLINE void ForEachMap(const ShadowMapTest& test, const Vector3& position, Visit visit) {
+HWY_INLINE void ForEachFace(const ShadowMapTest& test, const Vector3& position, Visit visit) {
   const FloatTag d;
-  if (test.maps.size() == 1) {
-    visit(test.maps[0], Splat(0.0F) < Splat(1.0F));
-    return;
-  }
   const Vector3 p = position - Splat3(test.maps[0].eye_ws);
   const auto ax = hn::Abs(p.x), ay = hn::Abs(p.y), az = hn::Abs(p.z);
   const auto is_x = hn::And(ax >= ay, ax >= az);
@@ -260,7 +271,58 @@ HWY_INLINE void ForEachMap(const ShadowMapTest& test, const Vector3& position, V
     const auto component = components[face / 2];
     const auto side = face % 2 == 0 ? component >= Splat(0.0F) : component < Splat(0.0F);
     const auto here = hn::And(axes[face / 2], side);
-    if (!hn::AllFalse(d, here)) visit(test.maps[face], here);
+    if (!hn::AllFalse(d, here)) visit(test.maps[face], Share{here, Splat(1.0F), false});
+  }
+}
+
+// How much of a cascade's answer counts: all inside, less and less over a band along its sides, so that no seam is seen
+// where the next, coarser one takes over.
+HWY_INLINE FloatVector CascadeWeight(const ShadowMapTest& test, const BoundDepthMap& bound, const Points& p) {
+  const raster::RasterView& view = bound.map->view();
+  const auto inverse = Splat(1.0F) / Evaluate(bound.homogeneous, p.x, p.y, p.q);
+  const auto x = Evaluate(bound.position.x, p.x, p.y, p.q) * inverse +
+                 Splat(static_cast<float>(view.origin_x)),
+             y = Evaluate(bound.position.y, p.x, p.y, p.q) * inverse +
+                 Splat(static_cast<float>(view.origin_y));
+  const auto inside_x = hn::Min(x, Splat(static_cast<float>(view.width)) - x);
+  const auto inside_y = hn::Min(y, Splat(static_cast<float>(view.height)) - y);
+  const auto rim = Splat(static_cast<float>(light::cascade_rim(test.kernel)));
+  const auto share_per_texel = Splat(1.0F / light::cascade_band(view.width, view.height));
+  return Saturate((hn::Min(inside_x, inside_y) - rim) * share_per_texel);
+}
+
+// The finest cascade that holds each point, and the next coarser ones in its band. The coarsest is visited first.
+template <class Visit>
+HWY_INLINE void ForEachCascade(const ShadowMapTest& test, const Points& points, Visit visit) {
+  const FloatTag d;
+  const auto one = Splat(1.0F);
+  Share shares[kMostMaps];
+  auto open = Splat(0.0F) < one;  // points that nothing finer answers for alone
+  std::size_t count = 0;
+  for (; count < test.maps.size() && !hn::AllFalse(d, open); ++count) {
+    const bool is_last = count + 1 == test.maps.size();
+    const auto weight = is_last ? one : CascadeWeight(test, test.maps[count], points);
+    shares[count] = {hn::And(open, weight > Splat(0.0F)), weight, true};
+    open = hn::And(open, weight < one);
+  }
+  while (count-- > 0) {
+    if (!hn::AllFalse(d, shares[count].here)) visit(test.maps[count], shares[count]);
+  }
+}
+
+// Visits the maps that points ask, with each one's share.
+template <class Visit>
+HWY_INLINE void ForEachMap(const ShadowMapTest& test, const Points& points, Visit visit) {
+  switch (test.choice) {
+    case MapChoice::only:
+      visit(test.maps[0], Share{Splat(0.0F) < Splat(1.0F), Splat(1.0F), false});
+      break;
+    case MapChoice::face:
+      ForEachFace(test, points.position_ws, visit);
+      break;
+    case MapChoice::finest:
+      ForEachCascade(test, points, visit);
+      break;
   }
 }
 

@@ -53,6 +53,9 @@ ShadowMap::ShadowMap(const light::PlannedLight& planned, std::span<const std::sh
                      InstructionSet set, std::function<bool()> asks_to_stop)
     : maps_(maps.begin(), maps.end()), asks_to_stop_(std::move(asks_to_stop)) {
   for (const auto& map : maps) test_.maps.push_back(bind(*map, ray));
+  if (maps.size() > 1)
+    test_.choice =
+        planned.technique == laterna::ShadowTechnique::cascades ? MapChoice::finest : MapChoice::face;
   test_.bias = bias_of(planned.settings);
   test_.filter = filter_of(planned.settings);
   test_.frame = &frame;

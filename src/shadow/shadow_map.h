@@ -2,6 +2,7 @@
 // Rendering antialiased shadows with depth maps, 1987.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -39,9 +40,18 @@ struct BoundDepthMap {
   float texel_size = 0;   // at distance 1, or in metres
 };
 
+/// Which of a light's maps a sample asks.
+enum class MapChoice : std::uint8_t {
+  only,  ///< there is one
+  face,  ///< six faces of a cube in the order of light::cube_views: the one that the ray from the light passes
+  finest  ///< one within the other, the finest first: the first that holds the sample, blended with the next at its rim
+};
+inline constexpr std::size_t kMostMaps = 8;
+
 /// What one light's look-ups need.
 struct ShadowMapTest {
-  std::vector<BoundDepthMap> maps;  // one, or six cube faces in the order of light::cube_views
+  std::vector<BoundDepthMap> maps;
+  MapChoice choice = MapChoice::only;
   ShadowBias bias;
   ShadowFilter filter = ShadowFilter::refined;
   const frame::Frame* frame = nullptr;  // refined: where the triangles are
