@@ -112,8 +112,10 @@ struct RendererOptions {
 
 /// A shadow map, as seen by its light.
 struct ShadowMapView {
-  View view;
+  View view;                  ///< a warped map's: as it would be without
   int width = 0, height = 0;  ///< texels
+  /// As View::image_from_world(), with the warp.
+  glm::dmat4 image_from_world{1.0};
 };
 
 class Renderer {

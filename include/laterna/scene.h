@@ -161,6 +161,8 @@ struct Light {
 
 /// Why a light of this kind cannot have its shadows found in this way, and what can; empty where it can.
 std::string find_fault(ShadowTechnique technique, const Light& light);
+/// Likewise its map's warp.
+std::string find_fault(ShadowWarp warp, const Light& light);
 
 // ---------------------------------------------------------------------------------------------- the scene
 

@@ -37,6 +37,11 @@ enum class ShadowFilter : std::uint8_t {
   bilinear,  ///< four texels, weighted
   percentage_closer,  ///< kernel × kernel nearest texels, all of one weight
 };
+/// How the texels of a directional light's one map lie on the scene.
+enum class ShadowWarp : std::uint8_t {
+  none,                     ///< all of one size, on all that casts shadows, whatever the camera sees of it
+  light_space_perspective,  ///< on what the camera sees, finer toward it
+};
 enum class CasterFaces : std::uint8_t { both, back_only };
 
 /// One light's shadows. The defaults need no tuning: bias follows from the receiver's plane and the texel's footprint.
@@ -52,6 +57,7 @@ struct ShadowSettings {
   std::optional<double> slope_bias;     ///< texel footprints per unit of depth slope; overrides likewise
   CasterFaces caster_faces = CasterFaces::both;
   bool outside_is_lit = true;  ///< beyond the map's sides or far plane
+  ShadowWarp warp = ShadowWarp::none;  ///< technique map, directional lights that are fitted to the scene
 
   // Cascades.
   int cascades = 4;             ///< maps, one behind the other along the camera's view, 1…8

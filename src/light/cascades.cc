@@ -1,44 +1,15 @@
 #include "light/cascades.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "base/elementary.h"
+#include "light/camera_frustum.h"
 
 namespace laterna::light {
 namespace {
-
-struct Box {
-  glm::dvec3 middle, reach;
-};
-
-Box box_of(const Cluster& c) {
-  const glm::dvec3 low(c.low_ws[0], c.low_ws[1], c.low_ws[2]);
-  const glm::dvec3 high(c.high_ws[0], c.high_ws[1], c.high_ws[2]);
-  return {0.5 * (low + high), 0.5 * (high - low)};
-}
-
-// The four sides of a view: a point p is within where normal · (p − eye) ≥ offset.
-struct Side {
-  glm::dvec3 normal;
-  double offset;
-};
-
-std::array<Side, 4> sides_of(const View& view) {
-  const Projection& p = view.projection;
-  const glm::dvec3 right = view.pose.right_ws(), up = view.pose.up_ws(), forward = view.pose.forward_ws();
-  if (p.is_orthographic) return {{{right, p.left}, {-right, -p.right}, {up, p.bottom}, {-up, -p.top}}};
-  return {{{right - p.left * forward, 0},
-           {p.right * forward - right, 0},
-           {up - p.bottom * forward, 0},
-           {p.top * forward - up, 0}}};
-}
-
-double power_of_two_below(double distance) { return exponential2(std::floor(logarithm2(distance))); }
-double power_of_two_above(double distance) { return exponential2(std::ceil(logarithm2(distance))); }
 
 // The sphere around a slice of a frustum, in the camera's own space (x, y, and distance along the axis).
 struct Sphere {
@@ -128,30 +99,6 @@ ShadowView whole_view(const frame::PlacedLight& placed, const LightBox& box, int
 }
 
 }  // namespace
-
-Range find_depth_range(const View& camera, const frame::Frame& frame) {
-  const std::array<Side, 4> sides = sides_of(camera);
-  const glm::dvec3 forward = camera.pose.forward_ws();
-  const Projection& p = camera.projection;
-  Range seen;
-  for (const Cluster& c : frame.clusters) {
-    if ((c.flags & kVisible) == 0) continue;
-    const Box box = box_of(c);
-    const glm::dvec3 middle = box.middle - camera.pose.position_ws;
-    const auto is_within = [&](const Side& side) {
-      return glm::dot(side.normal, middle) + glm::dot(glm::abs(side.normal), box.reach) >= side.offset;
-    };
-    if (!std::all_of(sides.begin(), sides.end(), is_within)) continue;
-    seen.include(glm::dot(forward, middle), glm::dot(glm::abs(forward), box.reach));
-  }
-  Range range = {std::max(seen.low, p.near), std::min(seen.high, p.far)};
-  if (!(range.low < range.high)) return {p.near, p.near + 1};
-  if (!p.is_orthographic) {
-    range.low = std::max(p.near, power_of_two_below(range.low));
-    range.high = std::min(p.far, power_of_two_above(range.high));
-  }
-  return range;
-}
 
 std::vector<double> find_splits(double near, double far, int count, double lambda) {
   std::vector<double> splits;

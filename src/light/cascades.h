@@ -10,10 +10,6 @@
 
 namespace laterna::light {
 
-/// How far along the camera's axis there is anything to see, in metres. In steps of powers of two, so that it stays as
-/// it is while the camera moves a little.
-Range find_depth_range(const View& camera, const frame::Frame& frame);
-
 /// The `count` + 1 distances that bound the slices: lambda × logarithmic + (1 − lambda) × uniform, the paper's practical
 /// scheme. `near` is greater than 0 unless lambda is 0.
 std::vector<double> find_splits(double near, double far, int count, double lambda);

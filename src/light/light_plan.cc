@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "light/cascades.h"
+#include "light/light_space_perspective.h"
 #include "light/sun_view.h"
 
 namespace laterna::light {
@@ -129,6 +130,10 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
           placed.light->type == LightType::point ? kDefaultFaceResolution : kDefaultResolution;
     }
     if (planned.technique == ShadowTechnique::map) planned = with_shadow_map(std::move(planned), frame);
+    if (planned.technique == ShadowTechnique::map && planned.settings.warp != ShadowWarp::none) {
+      planned.shadow_views = {
+          light_space_perspective_view(*planned.placed, frame, planned.settings, plan_settings.camera)};
+    }
     if (planned.technique == ShadowTechnique::cascades)
       planned.shadow_views = cascade_views(*planned.placed, frame, planned.settings, plan_settings.camera);
     plan.lights.push_back(std::move(planned));

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <deque>
+#include <glm/mat4x4.hpp>
+#include <optional>
 #include <vector>
 
 #include "frame/frame.h"
@@ -10,10 +12,22 @@
 
 namespace laterna::light {
 
+/// A projective map of the world that keeps triangles triangles, and parallel the rays of one light.
+struct Warp {
+  glm::dmat4 warped_from_world{
+      1.0};         // homogeneous; the fourth coordinate is positive where the map may be asked
+  View light_view;  // orthographic: the light's, in the world
+};
+
 /// A depth map to be drawn: an ordinary View, drawn by the camera's raster code.
 struct ShadowView {
   View view;
-  int width = 0, height = 0;  // texels
+  int width = 0, height = 0;                // texels
+  std::optional<Warp> warp = std::nullopt;  // with one, `view` is a view of the warped world
+
+  [[nodiscard]] glm::dmat4 image_from_world() const {
+    return warp ? view.image_from_world() * warp->warped_from_world : view.image_from_world();
+  }
 };
 
 struct PlannedLight {

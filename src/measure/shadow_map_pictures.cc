@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <optional>
 
 #include "base/elementary.h"
@@ -54,7 +55,7 @@ Result<LightMaps> find_maps(const Renderer& renderer, const View& camera, const 
   const ShadowSettings& shadow = scene.lights[static_cast<std::size_t>(index)].shadow;
   LightMaps maps;
   maps.views = std::move(*views);
-  for (const ShadowMapView& map : maps.views) maps.image_from_world.push_back(map.view.image_from_world());
+  for (const ShadowMapView& map : maps.views) maps.image_from_world.push_back(map.image_from_world);
   maps.are_cascades = shadow.technique.value_or(settings.shadows) == ShadowTechnique::cascades;
   maps.kernel = shadow.kernel;
   return maps;
@@ -129,24 +130,30 @@ glm::dvec3 density_color(double texels_per_pixel) {
   return glm::mix(kDensityColors[low].color, kDensityColors[low + 1].color, t);
 }
 
-// The width of a texel or pixel where a point is, square to the gaze of the view.
-double width_at(const View& view, int width, const glm::dvec3& point_ws) {
-  const double step = (view.projection.right - view.projection.left) / width;
-  if (view.projection.is_orthographic) return step;
-  return step * glm::dot(point_ws - view.pose.position_ws, view.pose.forward_ws());
+// How many texels or pixels there are in a metre where a point is, square to the gaze: the root of their number in a
+// square metre, which is that of the area between the two gradients of the picture's coordinates.
+double steps_per_metre(const glm::dmat4& image_from_world, const glm::dvec2& size,
+                       const glm::dvec3& point_ws) {
+  const glm::dmat4 rows = glm::transpose(image_from_world);
+  const glm::dvec4 q = image_from_world * glm::dvec4(point_ws, 1);
+  const auto gradient = [&](int k) {
+    return (glm::dvec3(rows[k]) - glm::dvec3(rows[3]) * (q[k] / q.w)) * (size[k] / q.w);
+  };
+  return std::sqrt(glm::length(glm::cross(gradient(0), gradient(1))));
 }
 
-// The finest texel that answers for a point; of a cube's faces, which reach a little beyond their edges, the one that
-// it lies before.
-std::optional<double> texel_width_at(const LightMaps& maps, const glm::dvec3& point_ws) {
-  std::optional<double> width;
+// Texels per metre of the map that answers for a point; of a cube's faces, which reach a little beyond their edges, the
+// one that it lies before, where the texels are widest.
+std::optional<double> texels_per_metre(const LightMaps& maps, const glm::dvec3& point_ws) {
+  std::optional<double> density;
   for (std::size_t i = 0; i < maps.views.size(); ++i) {
     if (maps.weight_of(i, point_ws) < 0.5) continue;
-    const double here = width_at(maps.views[i].view, maps.views[i].width, point_ws);
+    const double here = steps_per_metre(maps.image_from_world[i],
+                                        glm::dvec2(maps.views[i].width, maps.views[i].height), point_ws);
     if (maps.are_cascades) return here;
-    width = std::max(width.value_or(0), here);
+    density = std::min(density.value_or(here), here);
   }
-  return width;
+  return density;
 }
 
 }  // namespace
@@ -180,12 +187,14 @@ Result<ExplainedPicture> texel_density_picture(const Renderer& renderer, const V
                                                const RenderSettings& settings, const std::string& light) {
   const Result<LightMaps> maps = find_maps(renderer, camera, settings, light);
   if (!maps) return tl::unexpected(maps.error());
+  const glm::dmat4 image_from_world = camera.image_from_world();
+  const glm::dvec2 pixels(settings.width, settings.height);
   std::vector<double> per_metre;
   Result<LayeredImage> picture = paint_surfaces(renderer, camera, settings, [&](const glm::dvec3& point_ws) {
-    const std::optional<double> texel = texel_width_at(*maps, point_ws);
-    if (!texel) return kNoMap.color;
-    per_metre.push_back(1 / *texel);
-    return density_color(width_at(camera, settings.width, point_ws) / *texel);
+    const std::optional<double> texels = texels_per_metre(*maps, point_ws);
+    if (!texels) return kNoMap.color;
+    per_metre.push_back(*texels);
+    return density_color(*texels / steps_per_metre(image_from_world, pixels, point_ws));
   });
   if (!picture) return tl::unexpected(std::move(picture.error()));
   ExplainedPicture explained = {std::move(*picture), {}};

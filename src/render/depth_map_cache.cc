@@ -9,13 +9,18 @@
 namespace laterna::render {
 namespace {
 
+bool same_warp(const light::ShadowView& a, const light::ShadowView& b) {
+  if (!a.warp || !b.warp) return !a.warp && !b.warp;
+  return a.warp->warped_from_world == b.warp->warped_from_world;
+}
+
 bool same_view(const light::ShadowView& a, const light::ShadowView& b) {
   const Projection& p = a.view.projection;
   const Projection& q = b.view.projection;
   return a.width == b.width && a.height == b.height && a.view.pose.position_ws == b.view.pose.position_ws &&
          a.view.pose.world_from_view_rotation == b.view.pose.world_from_view_rotation &&
          p.is_orthographic == q.is_orthographic && p.left == q.left && p.right == q.right &&
-         p.bottom == q.bottom && p.top == q.top && p.near == q.near && p.far == q.far;
+         p.bottom == q.bottom && p.top == q.top && p.near == q.near && p.far == q.far && same_warp(a, b);
 }
 
 }  // namespace
@@ -35,7 +40,7 @@ shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowV
   shadow::DepthMap map(raster::RasterView(shadow_view.view, shadow_view.width, shadow_view.height),
                        keeps_triangles, std::move(outworn));
   auto painter = std::make_unique<DepthMapPainter>(context.frame, context.bins, context.bins_owner,
-                                                   context.instruction_set, faces);
+                                                   context.instruction_set, faces, shadow_view.warp);
   context.times += painter->prepare(map.view(), context.pool);
   map.set_painter(std::move(painter));
   return map;

@@ -463,8 +463,10 @@ Result<std::vector<ShadowMapView>> Renderer::shadow_map_views(const std::string&
       Implementation::find_light(light::make_light_plan(self.frame, {settings.shadows, {}, &camera}), light);
   if (!planned) return tl::unexpected(planned.error());
   std::vector<ShadowMapView> views;
-  for (const light::ShadowView& shadow : planned->shadow_views)
-    views.push_back({shadow.view, shadow.width, shadow.height});
+  for (const light::ShadowView& shadow : planned->shadow_views) {
+    views.push_back({shadow.warp ? shadow.warp->light_view : shadow.view, shadow.width, shadow.height,
+                     shadow.image_from_world()});
+  }
   return views;
 }
 

@@ -48,6 +48,14 @@ void read_map(JsonObject& shadow, ShadowSettings& settings) {
       shadow.choice<bool>("outside", {{"lit", true}, {"shadowed", false}}).value_or(true);
 }
 
+void read_warp(JsonObject& shadow, Light& light) {
+  const auto warp = shadow.choice<ShadowWarp>(
+      "warp", {{"none", ShadowWarp::none}, {"light_space_perspective", ShadowWarp::light_space_perspective}});
+  light.shadow.warp = warp.value_or(ShadowWarp::none);
+  if (std::string fault = find_fault(light.shadow.warp, light); !fault.empty())
+    shadow.error("warp", std::move(fault));
+}
+
 void read_cascades(JsonObject& shadow, ShadowSettings& settings) {
   if (const auto count = shadow.whole("cascades", 1, kMostCascades))
     settings.cascades = static_cast<int>(*count);
@@ -83,6 +91,7 @@ void read_rig_shadow(const JsonDocument& json, JsonObject& object, FaultList& fa
   JsonObject shadow(json, *value, faults);
   read_technique(shadow, light);
   read_map(shadow, light.shadow);
+  read_warp(shadow, light);
   read_cascades(shadow, light.shadow);
   read_darkness(shadow, light.shadow);
   shadow.report_unknown_members("a shadow");

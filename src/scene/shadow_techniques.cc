@@ -30,4 +30,12 @@ std::string find_fault(ShadowTechnique technique, const Light& light) {
   return "there is no such shadow technique";
 }
 
+std::string find_fault(ShadowWarp warp, const Light& light) {
+  if (warp == ShadowWarp::none) return "";
+  if (light.type != LightType::directional || !light.fit)
+    return "only the map of a directional light that is fitted to the scene can be warped";
+  const ShadowTechnique technique = light.shadow.technique.value_or(ShadowTechnique::map);
+  return technique == ShadowTechnique::map ? "" : "only the technique \"map\" has a warp";
+}
+
 }  // namespace laterna

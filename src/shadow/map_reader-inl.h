@@ -32,6 +32,7 @@ struct Receiver {
   FloatVector q_dx, q_dy;  // along the receiver's plane, per texel; 0 without a receiver plane
   FloatVector rounding;    // in reversed depth: what arithmetic may have lost
   FloatVector texel;       // the footprint of a texel, as reversed depth
+  FloatVector metre;       // along the ray, as reversed depth
   FloatMask faces_light;   // the side of the surface that is seen is the one the light falls on
   FloatMask is_seen;       // in front of the light and nearer than far
 };
@@ -68,7 +69,7 @@ class MapReader {
   HWY_INLINE Receiver Find(const Points& p) const {
     const auto X = Evaluate(bound_.position.x, p.x, p.y, p.q), Y = Evaluate(bound_.position.y, p.x, p.y, p.q);
     const auto W = Evaluate(bound_.position.divisor, p.x, p.y, p.q),
-               h = Evaluate(bound_.homogeneous, p.x, p.y, p.q);
+               h = Evaluate(bound_.divisor, p.x, p.y, p.q);
     const raster::RasterView& view = map_.view();
     const auto origin_x = Splat(static_cast<float>(view.origin_x)),
                origin_y = Splat(static_cast<float>(view.origin_y));
@@ -86,6 +87,7 @@ class MapReader {
       plane_divisor = hn::Neg(Dot(p.normal_ws, Splat3(bound_.axis_ws)));
       r.texel = Splat(bound_.texel_size);
       r.rounding = error;
+      r.metre = Splat(1.0F);
     } else {
       // Nothing behind the light is seen by it (row 58). The smallest divisor still has a finite inverse.
       const auto is_ahead = W > h * Splat(1e-6F);
@@ -98,16 +100,22 @@ class MapReader {
       // t metres at reversed depth q are t q² of reversed depth; a texel is texel_size / q metres wide.
       r.texel = Splat(bound_.texel_size) * r.q;
       r.rounding = error * r.q * r.q;
+      r.metre = r.q * r.q;
+    }
+    Vector3 step_x = Splat3(bound_.direction_x_ws), step_y = Splat3(bound_.direction_y_ws);
+    if (bound_.is_warped) {
+      const auto homogeneous = Evaluate(bound_.homogeneous, p.x, p.y, p.q);
+      step_x = step_x - p.position_ws * Splat(bound_.direction_x_h);
+      step_y = step_y - p.position_ws * Splat(bound_.direction_y_h);
+      Unwarp(h / homogeneous, step_x, step_y, r);
     }
     r.rounding = r.rounding + Splat(kDepthRounding) * hn::Abs(r.q);
     r.faces_light = plane_divisor < Splat(0.0F);
     // A plane seen edge-on has no slope to speak of; its lit and dark sides meet in one texel.
     const auto is_edge_on = hn::Abs(plane_divisor) <= Splat(1e-9F);
     const auto inverse_divisor = Splat(1.0F) / hn::IfThenElse(is_edge_on, Splat(1.0F), plane_divisor);
-    r.q_dx =
-        hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, Splat3(bound_.direction_x_ws)) * inverse_divisor);
-    r.q_dy =
-        hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, Splat3(bound_.direction_y_ws)) * inverse_divisor);
+    r.q_dx = hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, step_x) * inverse_divisor);
+    r.q_dy = hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, step_y) * inverse_divisor);
     return r;
   }
 
@@ -116,7 +124,7 @@ class MapReader {
     // Back sides are in the shadow of their own front, if of anything: there is no self-shadowing to prevent.
     const ShadowBias& b = test_.bias;
     const auto slope = hn::Abs(r.q_dx) + hn::Abs(r.q_dy);
-    const auto metres = Splat(b.metres) * (bound_.is_orthographic ? Splat(1.0F) : r.q * r.q);
+    const auto metres = Splat(b.metres) * r.metre;
     const auto bias = r.rounding + metres +
                       hn::IfThenElseZero(r.faces_light, Splat(b.texels) * r.texel + Splat(b.slope) * slope);
     if (!b.uses_receiver_plane) r.q_dx = r.q_dy = Splat(0.0F);
@@ -183,6 +191,27 @@ class MapReader {
   [[nodiscard]] const DepthMap& map() const { return map_; }
 
  private:
+  // What an orthographic map's numbers are in a warped one. `divisor`: the warp's fourth coordinate; a metre along the
+  // light is the smaller the larger it is. `step_x`, `step_y`: of a texel at the sample, over the divisor.
+  HWY_INLINE void Unwarp(FloatVector divisor, const Vector3& step_x, const Vector3& step_y,
+                         Receiver& r) const {
+    const auto one = Splat(1.0F);
+    const auto is_ahead = divisor > Splat(1e-3F);
+    r.is_seen = hn::And(r.is_seen, is_ahead);
+    r.metre = one / hn::IfThenElse(is_ahead, divisor, one);
+    // Square to the light. Over the divisor a length is reversed depth already.
+    const Vector3 axis = Splat3(bound_.axis_ws);
+    const auto across_squared = [&](const Vector3& step) HWY_ATTR {
+      const auto along = Dot(step, axis);
+      return Dot(step, step) - along * along;
+    };
+    r.texel = hn::Sqrt(hn::Max(hn::Max(across_squared(step_x), across_squared(step_y)), Splat(0.0F)));
+    // An error of the sample's place moves the divisor too, and the warped corners were rounded.
+    const auto nearest = Splat(map_.view().reversed_near);
+    r.rounding =
+        Splat(position_error_) * (one + hn::Abs(nearest - r.q)) * r.metre + Splat(kDepthRounding) * nearest;
+  }
+
   // 1 where texel (i, j), whose centre lies (dx, dy) texels from the sample, holds nothing nearer than the receiver's
   // plane has there.
   HWY_INLINE FloatVector Tap(const Receiver& r, FloatVector bias, IntVector i, IntVector j, FloatVector dx,

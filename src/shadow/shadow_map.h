@@ -32,12 +32,17 @@ struct BoundDepthMap {
   const DepthMap* map = nullptr;
   ProjectedView position;    // pixel-homogeneous
   ProjectedRow homogeneous;  // the samples' fourth coordinate
+  ProjectedRow divisor;      // orthographic: of the three; the fourth coordinate, or that of the warp
   bool is_orthographic = false;
   float eye_ws[3];  // perspective
   float direction_x_ws[3],
       direction_y_ws[3];  // of one texel to the right and down, at distance 1 (perspective) or in metres
   float axis_ws[3];       // orthographic: toward the light
   float texel_size = 0;   // at distance 1, or in metres
+  // A warped map's texel steps have a fourth coordinate: how much of a sample's own place is taken from them. Their other
+  // three are direction_x_ws and direction_y_ws.
+  bool is_warped = false;
+  float direction_x_h = 0, direction_y_h = 0;
 };
 
 /// Which of a light's maps a sample asks.

@@ -277,6 +277,12 @@ const RigCase kRigCases[] = {
      "r.json: line 1: lights[0].shadow.technique: cascades share out the parallel light of a directional "
      "light: "
      "other lights have \"map\""},
+    {"ShadowWarpOfALamp",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"warp\": "
+     "\"light_space_perspective\"}}]}",
+     "r.json: line 1: lights[0].shadow.warp: only the map of a directional light that is fitted to the scene "
+     "can be "
+     "warped"},
     {"ShadowFilterMisspelt",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"filter\": "
      "\"percentage-closer\", "

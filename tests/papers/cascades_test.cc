@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "light/camera_frustum.h"
 #include "light/cascades.h"
 #include "reference/picture_probes.h"
 #include "reference/shadow_scenes.h"
