@@ -61,7 +61,7 @@ struct ShadowSettings {
 
   // Cascades.
   int cascades = 4;             ///< maps, one behind the other along the camera's view, 1…8
-  double split_lambda = 0.5;    ///< where they meet: 0 at equal distances, 1 at equal ratios of distances
+  double split_lambda = 0.8;    ///< where they meet: 0 at equal distances, 1 at equal ratios of distances
   double cascade_distance = 0;  ///< metres from the camera to where the last one ends; 0: as far as there is anything
 
   // How dark: physical unless set. With α the fraction that arrives, ambient + (1 − ambient) α takes its place (row 91,
