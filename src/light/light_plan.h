@@ -14,8 +14,8 @@ namespace laterna::light {
 
 /// A projective map of the world that keeps triangles triangles, and parallel the rays of one light.
 struct Warp {
-  glm::dmat4 warped_from_world{
-      1.0};         // homogeneous; the fourth coordinate is positive where the map may be asked
+  // Homogeneous: the fourth coordinate is positive where the map may be asked.
+  glm::dmat4 warped_from_world{1.0};
   View light_view;  // orthographic: the light's, in the world
 };
 
@@ -35,8 +35,8 @@ struct PlannedLight {
   std::uint32_t number = 0;  // in the frame's order
   ShadowTechnique technique = ShadowTechnique::none;
   ShadowSettings settings;  // resolution filled in
-  std::vector<ShadowView>
-      shadow_views;  // map: one, or six for a light that shines all round; cascades: finest first
+  // map: one, or six for a light that shines all round; cascades: finest first
+  std::vector<ShadowView> shadow_views;
 };
 
 struct LightPlan {

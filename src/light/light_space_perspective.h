@@ -2,9 +2,6 @@
 // so that light stays parallel and triangles stay triangles, makes texels fine toward the camera.
 #pragma once
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec4.hpp>
-
 #include "light/light_plan.h"
 
 namespace laterna::light {

@@ -190,5 +190,19 @@ TEST(Cascades, AreRefusedToOtherLights) {
       << to_string(drawn.error());
 }
 
+TEST(Cascades, AreRefusedWithNumbersThatMakeNoSense) {
+  Scene scene;
+  Light light = sun("sun");
+  light.shadow.cascades = 9;
+  light.shadow.split_lambda = -0.5;
+  light.shadow.cascade_distance = -1;
+  add_light(scene, light, {0, 3, 1}, {0, 0, 0});
+  std::vector<std::string> places;
+  for (const Diagnostic& fault : validate(scene)) places.push_back(fault.place);
+  EXPECT_EQ(places, (std::vector<std::string>{"lights[0].shadow.cascades", "lights[0].shadow.split_lambda",
+                                              "lights[0].shadow.cascade_distance"}));
+  EXPECT_EQ(to_string(validate(scene)[0]), "lights[0].shadow.cascades: expected from 1 to 8, got 9");
+}
+
 }  // namespace
 }  // namespace laterna
