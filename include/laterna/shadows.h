@@ -56,13 +56,14 @@ struct ShadowSettings {
   std::optional<double> constant_bias;  ///< metres toward the light; overrides the automatic bias
   std::optional<double> slope_bias;     ///< texel footprints per unit of depth slope; overrides likewise
   CasterFaces caster_faces = CasterFaces::both;
-  bool outside_is_lit = true;  ///< beyond the map's sides or far plane
+  bool outside_is_lit = true;          ///< beyond the map's sides or far plane
   ShadowWarp warp = ShadowWarp::none;  ///< technique map, directional lights that are fitted to the scene
 
   // Cascades.
-  int cascades = 4;             ///< maps, one behind the other along the camera's view, 1…8
-  double split_lambda = 0.8;    ///< where they meet: 0 at equal distances, 1 at equal ratios of distances
-  double cascade_distance = 0;  ///< metres from the camera to where the last one ends; 0: as far as there is anything
+  int cascades = 4;           ///< maps, one behind the other along the camera's view, 1…8
+  double split_lambda = 0.8;  ///< where they meet: 0 at equal distances, 1 at equal ratios of distances
+  double cascade_distance =
+      0;  ///< metres from the camera to where the last one ends; 0: as far as there is anything
 
   // How dark: physical unless set. With α the fraction that arrives, ambient + (1 − ambient) α takes its place (row 91,
   // GL_ARB_shadow_ambient), and of each colour 1 − opacity (1 − color) (1 − that) is seen (row 34).
