@@ -13,6 +13,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "debug_picture.h"
 #include "laterna/measure.h"
 #include "layer_pictures.h"
 #include "outcome.h"
@@ -175,6 +176,11 @@ class RenderCommand {
     if (!exposure) return report(exposure.error());
     const Result<std::optional<glm::vec3>> background = parse_background(options_.background);
     if (!background) return report(background.error());
+    if (!options_.debug.empty()) {
+      Result<DebugChoice> debug = parse_debug_choice(options_.debug);
+      if (!debug) return report(debug.error());
+      debug_ = std::move(*debug);
+    }
     if (const std::string fault = find_output_fault(*settings); !fault.empty())
       return report(bad_option(fault));
     if (Result<void> writable = check_image_output(options_.output); !writable)
@@ -202,9 +208,7 @@ class RenderCommand {
       return "--layers: only OpenEXR holds layers: give an output that ends in .exr, or --layer-pictures "
              "FOLDER";
     }
-    if (options_.debug.empty() || options_.debug == "depth" || options_.debug.rfind("project-depth:", 0) == 0)
-      return {};
-    return fmt::format("--debug: expected depth or project-depth:LIGHT, got \"{}\"", options_.debug);
+    return {};
   }
 
   int draw(const Renderer& renderer, const View& view, const RenderSettings& settings, float exposure) {
@@ -214,7 +218,7 @@ class RenderCommand {
     WriteOptions write;
     write.depth = kDepth.at(options_.depth);
     write.threads = renderer.threads();
-    const bool is_debug = !options_.debug.empty();
+    const bool is_debug = debug_.has_value();
     // In half precision the lights' layers would no longer add up to beauty.
     const bool has_light_layers = std::ranges::find(settings.layers, Layer::light) != settings.layers.end();
     if (has_light_layers && keeps_layers(options_.output) && options_.depth == "auto") {
@@ -247,17 +251,11 @@ class RenderCommand {
 
   Result<LayeredImage> draw_image(const Renderer& renderer, const View& view, const RenderSettings& settings,
                                   RenderStatistics& statistics) const {
-    constexpr std::string_view kProjectDepth = "project-depth:";
-    if (options_.debug.rfind(kProjectDepth, 0) == 0) {
-      return projected_depth(renderer, view, settings, options_.debug.substr(kProjectDepth.size()));
-    }
-    if (options_.debug != "depth") return draw_light(renderer, view, settings, statistics);
-    RenderSettings with_depth = settings;
-    with_depth.layers = {Layer::depth};
-    const Result<LayeredImage> image =
-        renderer.render(view, with_depth, progress_line("rendering"), &statistics);
-    if (!image) return image;
-    return depth_picture(*image);
+    if (!debug_) return draw_light(renderer, view, settings, statistics);
+    Result<ExplainedPicture> shown = draw_debug_picture(renderer, view, settings, *debug_, statistics);
+    if (!shown) return tl::unexpected(std::move(shown.error()));
+    for (const std::string& line : shown->legend) fmt::print(stderr, "laterna: {}\n", line);
+    return std::move(shown->picture);
   }
 
   static Result<LayeredImage> draw_light(const Renderer& renderer, const View& view,
@@ -274,6 +272,7 @@ class RenderCommand {
   }
 
   const RenderOptions& options_;
+  std::optional<DebugChoice> debug_;
   double load_ms_ = 0;
 };
 
@@ -363,8 +362,7 @@ void declare_render(CLI::App& app, Run& run) {
           "of the output: 8 or 16 bits (PNG), half or float (EXR; float by default with layers of lights)")
       ->check(CLI::IsMember(names_of(kDepth)))
       ->capture_default_str();
-  command->add_option("--debug", o.debug,
-                      "depth: grey ramp; project-depth:LIGHT: a light's depth map thrown on the scene");
+  command->add_option("--debug", o.debug, describe_debug_choices());
   o.scene.declare_machine(*command);
   command->add_flag("--json", o.json, "print what it cost, to standard output");
   command->add_flag_callback(

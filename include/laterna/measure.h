@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "laterna/render.h"
 
@@ -35,5 +36,23 @@ Result<LayeredImage> depth_picture(const LayeredImage& depth);
 /// it. Surfaces outside the map are black. The sky is the background.
 Result<LayeredImage> projected_depth(const Renderer& renderer, const View& camera,
                                      const RenderSettings& settings, const std::string& light);
+
+/// A picture that shows numbers as colours, and what each colour means, a line each.
+struct ExplainedPicture {
+  LayeredImage picture;  ///< R, G, B, linear
+  std::vector<std::string> legend;
+};
+
+/// Which of a directional light's cascades answers for each surface, by colour, mixed where two are blended.
+/// Error: no such light, or it has no cascades.
+Result<ExplainedPicture> cascade_picture(const Renderer& renderer, const View& camera,
+                                         const RenderSettings& settings, const std::string& light);
+
+/// How finely a light's shadow maps are sampled: shadow texels along one pixel, both taken square to what looks at them
+/// (perspective aliasing, as Stamminger and Drettakis, Perspective shadow maps, 2002, have it). Fewer than one shows
+/// as blocks with plain filters. The legend also tells texels per metre.
+/// Error: no such light, or its technique draws no maps.
+Result<ExplainedPicture> texel_density_picture(const Renderer& renderer, const View& camera,
+                                               const RenderSettings& settings, const std::string& light);
 
 }  // namespace laterna

@@ -119,6 +119,14 @@ struct RendererOptions {
   std::optional<InstructionSet> instruction_set;  ///< unset: the best this machine has
 };
 
+/// A shadow map, as seen by its light.
+struct ShadowMapView {
+  View view;                  ///< a warped map's: as it would be without
+  int width = 0, height = 0;  ///< texels
+  /// As View::image_from_world(), with the warp.
+  glm::dmat4 image_from_world{1.0};
+};
+
 class Renderer {
  public:
   /// Validates the scene, decodes its pictures and lays out its triangles.
@@ -164,6 +172,12 @@ class Renderer {
   [[nodiscard]] Result<View> depth_map_view(const std::string& light, int face = 0) const;
   [[nodiscard]] Result<LayeredImage> depth_map(const std::string& light, int face = 0,
                                                RenderStatistics* statistics = nullptr) const;
+
+  /// The shadow maps that a picture of `camera` reads for a light: one, six faces, or cascades, the finest first; empty
+  /// where its technique draws none. Error: no such light, or a technique that a light cannot have.
+  [[nodiscard]] Result<std::vector<ShadowMapView>> shadow_map_views(const std::string& light,
+                                                                    const View& camera,
+                                                                    const RenderSettings& settings) const;
 
  private:
   struct Implementation;

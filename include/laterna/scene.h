@@ -163,6 +163,8 @@ struct Light {
 std::string find_fault(ShadowTechnique technique, const Light& light);
 /// The same of what its depths are compared by.
 std::string find_fault(ShadowDepth depth, const Light& light);
+/// Likewise its map's warp.
+std::string find_fault(ShadowWarp warp, const Light& light);
 
 // ---------------------------------------------------------------------------------------------- the scene
 

@@ -43,6 +43,11 @@ enum class ShadowFilter : std::uint8_t {
 enum class ShadowDepth : std::uint8_t { planar, radial };
 /// What a variance map holds: moments of depth, or of two exponentials of it, which lets far less light bleed through.
 enum class ShadowMoments : std::uint8_t { variance, exponential };
+/// How the texels of a directional light's one map lie on the scene.
+enum class ShadowWarp : std::uint8_t {
+  none,                     ///< all of one size, on all that casts shadows, whatever the camera sees of it
+  light_space_perspective,  ///< on what the camera sees, finer toward it
+};
 enum class CasterFaces : std::uint8_t { both, back_only };
 
 /// Largest ShadowSettings::blur.
@@ -94,6 +99,13 @@ struct ShadowSettings {
   SmoothKernel smooth_kernel = SmoothKernel::eight_neighbours;
   bool orders_objects = true;   ///< false: objects between a light and a caster are shaded by it too (row 31)
   bool culls_occluders = true;  ///< false: all silhouettes are drawn; the picture is the same (row 47)
+
+  // Warped maps and cascades.
+  ShadowWarp warp = ShadowWarp::none;  ///< technique map, directional lights that are fitted to the scene
+  int cascades = 4;                    ///< maps, one behind the other along the camera's view, 1…8
+  double split_lambda = 0.8;  ///< where they meet: 0 at equal distances, 1 at equal ratios of distances
+  double cascade_distance =
+      0;  ///< metres from the camera to where the last one ends; 0: as far as there is anything
 
   // How dark: physical unless set. With α the fraction that arrives, ambient + (1 − ambient) α takes its place (row 91,
   // GL_ARB_shadow_ambient), and of each colour 1 − opacity (1 − color) (1 − that) is seen (row 34).

@@ -6,7 +6,10 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "light/cascades.h"
 #include "light/floor.h"
+#include "light/light_space_perspective.h"
+#include "light/sun_view.h"
 
 namespace laterna::light {
 namespace {
@@ -17,7 +20,6 @@ using frame::PlacedLight;
 constexpr int kDefaultResolution = 2048;
 constexpr int kDefaultFaceResolution = 1024;
 constexpr int kDefaultSilhouetteResolution = 512;
-constexpr int kMaxResolution = 16384;
 
 // Where shadow maps of point and spot lights begin: before the nearest caster, but no farther than this. Reversed depth
 // loses nothing by it.
@@ -33,77 +35,6 @@ constexpr double kWidestSingleView = 75;  // degrees of half angle
 constexpr int kSoftBorder = 8;
 // And this many texels for the coarser levels of `variance`.
 constexpr int kMipBorder = 8;
-
-struct Range {
-  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
-  void include(double centre, double reach) {
-    low = std::min(low, centre - reach);
-    high = std::max(high, centre + reach);
-  }
-  void include(const Range& other) {
-    low = std::min(low, other.low);
-    high = std::max(high, other.high);
-  }
-  [[nodiscard]] bool is_empty() const { return low > high; }
-  [[nodiscard]] double length() const { return high - low; }
-};
-
-// Extent of the casters along the axes of the light, and how far along it there is anything at all.
-struct CasterExtent {
-  Range x, y, depth;
-  double farthest = -std::numeric_limits<double>::infinity();
-};
-
-CasterExtent casters_along(const Pose& pose, const Frame& frame) {
-  CasterExtent extent;
-  const glm::dvec3 axes[3] = {pose.right_ws(), pose.up_ws(), pose.forward_ws()};
-  Range* ranges[3] = {&extent.x, &extent.y, &extent.depth};
-  for (const Cluster& c : frame.clusters) {
-    const glm::dvec3 low(c.low_ws[0], c.low_ws[1], c.low_ws[2]);
-    const glm::dvec3 high(c.high_ws[0], c.high_ws[1], c.high_ws[2]);
-    const glm::dvec3 centre = 0.5 * (low + high) - pose.position_ws;
-    Range here[3];
-    for (int k = 0; k < 3; ++k)
-      here[k].include(glm::dot(axes[k], centre), glm::dot(glm::abs(axes[k]), 0.5 * (high - low)));
-    extent.farthest = std::max(extent.farthest, here[2].high);
-    if ((c.flags & kCastsShadow) == 0) continue;
-    for (int k = 0; k < 3; ++k) ranges[k]->include(here[k]);
-  }
-  return extent;
-}
-
-// The smallest box of the light's axes around all that casts, and as deep as anything receives. What lies beside it is
-// lit, so receivers do not count for its width.
-// The map's texels are squares: its sides are shared out by the box's proportions.
-ShadowView fit_to_casters(const Pose& pose, const Frame& frame, int resolution) {
-  CasterExtent extent = casters_along(pose, frame);
-  if (extent.x.is_empty()) extent = {{-1, 1}, {-1, 1}, {0, 1}};
-  const double largest = std::max({extent.x.length(), extent.y.length(), extent.depth.length(), 1e-3});
-  const double width = std::max(extent.x.length(), 1e-3 * largest);
-  const double height = std::max(extent.y.length(), 1e-3 * largest);
-  const double proportion = std::sqrt(width / height);
-  const auto side = [&](double texels) {
-    return std::clamp(static_cast<int>(std::ceil(texels)), 16, kMaxResolution);
-  };
-  ShadowView shadow;
-  shadow.width = side(resolution * proportion);
-  shadow.height = side(resolution / proportion);
-  // Two texels to spare on each side, so that filters at the rim find what is there.
-  constexpr int kRim = 2;
-  const double texel = std::max(width / (shadow.width - 2 * kRim), height / (shadow.height - 2 * kRim));
-  const double x = 0.5 * (extent.x.low + extent.x.high);
-  const double y = 0.5 * (extent.y.low + extent.y.high);
-  const double margin = 1e-3 * largest;
-  shadow.view.pose = pose;
-  shadow.view.projection = {true,
-                            x - 0.5 * texel * shadow.width,
-                            x + 0.5 * texel * shadow.width,
-                            y - 0.5 * texel * shadow.height,
-                            y + 0.5 * texel * shadow.height,
-                            extent.depth.low - margin,
-                            std::max(extent.depth.high, extent.farthest) + margin};
-  return shadow;
-}
 
 double distance_to(const Cluster& c, const glm::dvec3& point) {
   const glm::dvec3 low(c.low_ws[0], c.low_ws[1], c.low_ws[2]);
@@ -181,7 +112,8 @@ std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& fra
   const int border = technique == ShadowTechnique::variance ? face_border(settings, technique) : 0;
   switch (light.type) {
     case LightType::directional:
-      if (light.fit) return {fit_to_casters(placed.pose, frame, settings.resolution)};
+      if (light.fit)
+        return {fit_to_box(placed.pose, box_of_casters(placed.pose, frame), settings.resolution)};
       return {widened({{placed.pose, light.projection}, settings.resolution, settings.resolution}, border)};
     case LightType::projector:
       return {widened({placed.view, settings.resolution, settings.resolution}, border)};
@@ -254,8 +186,15 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
       case ShadowTechnique::variance:
         planned.shadow_views = shadow_views(*planned.placed, frame, planned.settings, planned.technique);
         break;
+      case ShadowTechnique::cascades:
+        planned.shadow_views = cascade_views(*planned.placed, frame, planned.settings, plan_settings.camera);
+        break;
       default:
         break;
+    }
+    if (planned.technique == ShadowTechnique::map && planned.settings.warp != ShadowWarp::none) {
+      planned.shadow_views = {
+          light_space_perspective_view(*planned.placed, frame, planned.settings, plan_settings.camera)};
     }
     plan.lights.push_back(std::move(planned));
   }

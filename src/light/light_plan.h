@@ -3,6 +3,8 @@
 #pragma once
 
 #include <deque>
+#include <glm/mat4x4.hpp>
+#include <optional>
 #include <vector>
 
 #include "frame/frame.h"
@@ -10,18 +12,31 @@
 
 namespace laterna::light {
 
+/// A projective map of the world that keeps triangles triangles, and parallel the rays of one light.
+struct Warp {
+  // Homogeneous: the fourth coordinate is positive where the map may be asked.
+  glm::dmat4 warped_from_world{1.0};
+  View light_view;  // orthographic: the light's, in the world
+};
+
 /// A depth map to be drawn: an ordinary View, drawn by the camera's raster code.
 struct ShadowView {
   View view;
-  int width = 0, height = 0;  // texels
+  int width = 0, height = 0;                // texels
+  std::optional<Warp> warp = std::nullopt;  // with one, `view` is a view of the warped world
+
+  [[nodiscard]] glm::dmat4 image_from_world() const {
+    return warp ? view.image_from_world() * warp->warped_from_world : view.image_from_world();
+  }
 };
 
 struct PlannedLight {
   const frame::PlacedLight* placed = nullptr;
   std::uint32_t number = 0;  // in the frame's order
   ShadowTechnique technique = ShadowTechnique::none;
-  ShadowSettings settings;                 // resolution filled in
-  std::vector<ShadowView> shadow_views;    // map: one, or six for a light that shines all round
+  ShadowSettings settings;  // resolution filled in
+  // map: one, or six for a light that shines all round; cascades: finest first
+  std::vector<ShadowView> shadow_views;
   std::vector<ShadowPlane> ground_planes;  // ground
 };
 
@@ -35,6 +50,7 @@ struct LightPlan {
 struct PlanSettings {
   ShadowTechnique technique = ShadowTechnique::map;  // for lights that name none
   SourcePoint source_point;
+  const View* camera = nullptr;  // cascades follow it; without one there is a single map
 };
 
 LightPlan make_light_plan(const frame::Frame& frame, const PlanSettings& settings);

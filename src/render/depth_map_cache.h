@@ -22,6 +22,8 @@ struct DepthMapKey {
   CasterFaces faces = CasterFaces::both;
   bool keeps_triangles = true;
   std::uint64_t casters_revision = 0;
+  /// The same but for the views.
+  [[nodiscard]] bool has_same_casters(const DepthMapKey& other) const;
   bool operator==(const DepthMapKey& other) const;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "raster/tile_raster.h"
+#include "render/warped_casters.h"
 #include "shade/surface_cut.h"
 
 namespace laterna::render {
@@ -27,10 +28,14 @@ DepthMapPainter::Bins DepthMapPainter::sort_casters(const raster::RasterView& vi
   options.pixels = {0, 0, view.width, view.height};
   options.instruction_set = set_;
   BinsPool::Lease lease = bins_pool_.take(bins_owner_);
-  if (pool != nullptr) {
-    lease->fill(view, frame_.geometry(), options, *pool);
+  const TaskPool alone(1);
+  const TaskPool& threads = pool != nullptr ? *pool : alone;
+  if (warp_) {
+    // Sorted triangles are copies: the warped ones are needed no longer than for sorting.
+    const WarpedCasters casters(frame_.geometry(), *warp_, threads);
+    lease->fill(view, casters.geometry(), options, threads);
   } else {
-    lease->fill(view, frame_.geometry(), options, TaskPool(1));
+    lease->fill(view, frame_.geometry(), options, threads);
   }
   working_bytes_ = lease->memory_bytes();
   bins_ = std::move(lease);
@@ -45,7 +50,12 @@ void DepthMapPainter::paint(const raster::RasterView& view, int tile_x, int tile
                             TriangleId* ids) {
   // Other threads are busy with tiles of their own.
   const Bins bins = sort_casters(view, nullptr);
-  const shade::SurfaceCut cut({&frame_, &view, Interpolation::perspective, 1}, true, set_);
+  const raster::RasterView unwarped =
+      warp_ ? raster::RasterView(warp_->light_view, view.width, view.height) : view;
+  const shade::SurfaceCut unwarped_cut({&frame_, &unwarped, Interpolation::perspective, 1}, true, set_);
+  std::optional<WarpedCut> warped_cut;
+  if (warp_) warped_cut.emplace(unwarped_cut, *warp_, view, unwarped);
+  const raster::AlphaCut& cut = warped_cut ? static_cast<const raster::AlphaCut&>(*warped_cut) : unwarped_cut;
   const raster::TileTask task = {&view, bins->batches(), tile_x, tile_y, 0, 0, &cut};
   std::fill_n(depth, raster::kTilePixels, view.reversed_far);
   if (ids != nullptr) {

@@ -4,11 +4,13 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "base/task_pool.h"
 #include "frame/frame.h"
 #include "laterna/instruction_set.h"
 #include "laterna/scene.h"
+#include "light/light_plan.h"
 #include "raster/alpha_cut.h"
 #include "render/reuse_pool.h"
 #include "shadow/depth_map.h"
@@ -20,8 +22,13 @@ class DepthMapPainter final : public shadow::TilePainter {
  public:
   /// `frame` and `bins` stay while the painter lives.
   DepthMapPainter(const frame::Frame& frame, BinsPool& bins, std::size_t bins_owner, InstructionSet set,
-                  CasterFaces faces)
-      : frame_(frame), bins_pool_(bins), bins_owner_(bins_owner), set_(set), faces_(faces) {}
+                  CasterFaces faces, std::optional<light::Warp> warp)
+      : frame_(frame),
+        bins_pool_(bins),
+        bins_owner_(bins_owner),
+        set_(set),
+        faces_(faces),
+        warp_(std::move(warp)) {}
 
   /// Sorts the casters by tile with all threads, and says what that took. Without it the first tile does so by itself.
   StageTimes prepare(const raster::RasterView& view, const TaskPool& pool);
@@ -39,6 +46,7 @@ class DepthMapPainter final : public shadow::TilePainter {
   std::size_t bins_owner_;
   InstructionSet set_;
   CasterFaces faces_;
+  std::optional<light::Warp> warp_;
   std::mutex mutex_;
   Bins bins_;  // null while resting
   std::atomic<std::size_t> working_bytes_ = 0;

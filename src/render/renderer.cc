@@ -172,6 +172,8 @@ struct Renderer::Implementation {
                   const render::PictureWriter& writer, RenderStatistics& statistics,
                   ProgressReport& progress) const;
 
+  /// The light of that name in a plan.
+  [[nodiscard]] static Result<light::PlannedLight> find_light(light::LightPlan plan, const std::string& name);
   [[nodiscard]] Result<light::PlannedLight> planned_light(const std::string& name) const;
   /// The light with the one shadow view of that face.
   [[nodiscard]] Result<light::PlannedLight> planned_face(const std::string& name, int face) const;
@@ -307,7 +309,7 @@ RenderStatistics Renderer::Implementation::draw_picture(const View& from, const 
   Stopwatch watch;
   watch.start();
   RenderStatistics statistics;
-  const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows, point});
+  const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows, point, &from});
   statistics.plan_ms = watch.lap_ms();
   const raster::RasterView view(from, settings.width, settings.height);
   shade::ShaderJob job = make_job(view, settings, plan, statistics, progress);
@@ -450,16 +452,41 @@ Result<void> Renderer::set_light(int light, Light value) {
   return {};
 }
 
-Result<light::PlannedLight> Renderer::Implementation::planned_light(const std::string& name) const {
-  light::LightPlan plan = light::make_light_plan(frame, {ShadowTechnique::map, {}});
+Result<light::PlannedLight> Renderer::Implementation::find_light(light::LightPlan plan,
+                                                                 const std::string& name) {
   std::string names;
   for (light::PlannedLight& planned : plan.lights) {
-    // Where a light asks for no shadow map, the one it would have is shown.
-    if (planned.placed->light->name == name) return light::with_shadow_map(std::move(planned), frame);
+    if (planned.placed->light->name == name) return std::move(planned);
     names += (names.empty() ? "\"" : ", \"") + planned.placed->light->name + "\"";
   }
   return refuse("the scene has no light \"" + name +
                 "\": " + (names.empty() ? "it has none" : "it has " + names));
+}
+
+Result<light::PlannedLight> Renderer::Implementation::planned_light(const std::string& name) const {
+  Result<light::PlannedLight> planned =
+      find_light(light::make_light_plan(frame, {ShadowTechnique::map, {}, nullptr}), name);
+  // Where a light asks for no shadow map, the one it would have is shown.
+  if (planned) planned = light::with_shadow_map(std::move(*planned), frame);
+  return planned;
+}
+
+Result<std::vector<ShadowMapView>> Renderer::shadow_map_views(const std::string& light, const View& camera,
+                                                              const RenderSettings& settings) const {
+  const Implementation& self = *implementation_;
+  if (Result<void> checked = render::check_settings(settings, camera); !checked)
+    return tl::unexpected(checked.error());
+  if (Result<void> checked = render::check_technique(settings.shadows, self.frame); !checked)
+    return tl::unexpected(checked.error());
+  const Result<light::PlannedLight> planned =
+      Implementation::find_light(light::make_light_plan(self.frame, {settings.shadows, {}, &camera}), light);
+  if (!planned) return tl::unexpected(planned.error());
+  std::vector<ShadowMapView> views;
+  for (const light::ShadowView& shadow : planned->shadow_views) {
+    views.push_back({shadow.warp ? shadow.warp->light_view : shadow.view, shadow.width, shadow.height,
+                     shadow.image_from_world()});
+  }
+  return views;
 }
 
 Result<View> Renderer::light_view(const std::string& name) const {

@@ -38,6 +38,7 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light:
     case ShadowTechnique::silhouette:
       return make_silhouettes(planned);
     case ShadowTechnique::map:
+    case ShadowTechnique::cascades:
       return make_map(planned, index);
     case ShadowTechnique::pcss:
       return make_soft_map(planned, index);
@@ -88,10 +89,9 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::Pl
   ProgressReport& progress = context_.progress;
   const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
   report_memory(planned, maps, 0);
-  return std::make_unique<shadow::ShadowMap>(planned, maps, context_.frame, find_neighbours(planned),
-                                             context_.camera.homogeneous_ray(), context_.settings.samples,
-                                             context_.instruction_set,
-                                             [&progress] { return progress.asks_to_stop(); });
+  return std::make_unique<shadow::ShadowMap>(
+      planned, maps, context_.frame, find_neighbours(planned), context_.camera.homogeneous_ray(),
+      context_.settings.samples, context_.instruction_set, [&progress] { return progress.asks_to_stop(); });
 }
 
 // The tree is all lights': the first is said to hold it.

@@ -8,6 +8,8 @@ namespace laterna {
 
 /// Metres, of things that may have no size.
 inline constexpr NumberRange kLength{0, kMaxCoordinate, false, false};
+/// Metres, of what has a size.
+inline constexpr NumberRange kPositiveLength{0, kMaxCoordinate, true, false};
 inline constexpr NumberRange kCoordinate{-kMaxCoordinate, kMaxCoordinate, false, false};
 inline constexpr NumberRange kFieldOfView{0, 180, true, true};
 inline constexpr NumberRange kHalfAngle{0, 90, false, false};

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint64_t kMaxShadowResolution = 16384;
 constexpr std::uint64_t kMostSmoothing = 64;
+constexpr std::uint64_t kMostCascades = 8;
 
 void read_technique(JsonObject& shadow, Light& light) {
   std::vector<std::pair<std::string_view, ShadowTechnique>> choices;
@@ -121,6 +122,21 @@ void read_silhouette(JsonObject& shadow, ShadowSettings& settings) {
   settings.culls_occluders = shadow.boolean("cull").value_or(true);
 }
 
+void read_warp(JsonObject& shadow, Light& light) {
+  const auto warp = shadow.choice<ShadowWarp>(
+      "warp", {{"none", ShadowWarp::none}, {"light_space_perspective", ShadowWarp::light_space_perspective}});
+  light.shadow.warp = warp.value_or(ShadowWarp::none);
+  if (std::string fault = find_fault(light.shadow.warp, light); !fault.empty())
+    shadow.error("warp", std::move(fault));
+}
+
+void read_cascades(JsonObject& shadow, ShadowSettings& settings) {
+  if (const auto count = shadow.whole("cascades", 1, kMostCascades))
+    settings.cascades = static_cast<int>(*count);
+  settings.split_lambda = shadow.number("split_lambda", kZeroToOne).value_or(settings.split_lambda);
+  settings.cascade_distance = shadow.number("cascade_distance", kPositiveLength).value_or(0);
+}
+
 void read_darkness(JsonObject& shadow, ShadowSettings& settings) {
   if (const auto color = shadow.numbers<3>("color", kZeroToOne)) {
     settings.color = glm::vec3((*color)[0], (*color)[1], (*color)[2]);
@@ -153,6 +169,8 @@ void read_rig_shadow(const JsonDocument& json, JsonObject& object, FaultList& fa
   read_variance(shadow, light.shadow);
   read_ground(json, shadow, faults, light.shadow);
   read_silhouette(shadow, light.shadow);
+  read_warp(shadow, light);
+  read_cascades(shadow, light.shadow);
   read_darkness(shadow, light.shadow);
   shadow.report_unknown_members("a shadow");
 }

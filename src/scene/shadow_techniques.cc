@@ -14,6 +14,8 @@ constexpr TechniqueDescription kTechniques[] = {
     {ShadowTechnique::pcss, "pcss",
      "soft shadows by the light's size: maps filtered as wide as each penumbra"},
     {ShadowTechnique::variance, "variance", "maps of moments of depth, filtered like textures: smooth edges"},
+    {ShadowTechnique::cascades, "cascades",
+     "several shadow maps for a sun, finer toward the camera: for scenes much larger than what is near"},
     {ShadowTechnique::volume, "volume",
      "shadow volumes counted along each line of sight: slow, exact, a second reference"},
     {ShadowTechnique::exact, "exact",
@@ -31,6 +33,8 @@ std::string find_fault(ShadowTechnique technique, const Light& light) {
       light.projection.is_orthographic && light.source.has_size()) {
     return "\"pcss\" cannot serve a parallel projector with a size: all its light goes one way";
   }
+  if (technique == ShadowTechnique::cascades && light.type != LightType::directional)
+    return "cascades share out the parallel light of a directional light: other lights have \"map\"";
   for (const TechniqueDescription& known : kTechniques) {
     if (known.technique == technique) return "";
   }
@@ -42,6 +46,14 @@ std::string find_fault(ShadowDepth depth, const Light& light) {
                            (light.type == LightType::projector && light.projection.is_orthographic);
   if (depth != ShadowDepth::radial || !is_parallel) return "";
   return "radial depths are distances from the light, and parallel light comes from nowhere: use \"planar\"";
+}
+
+std::string find_fault(ShadowWarp warp, const Light& light) {
+  if (warp == ShadowWarp::none) return "";
+  if (light.type != LightType::directional || !light.fit)
+    return "only the map of a directional light that is fitted to the scene can be warped";
+  const ShadowTechnique technique = light.shadow.technique.value_or(ShadowTechnique::map);
+  return technique == ShadowTechnique::map ? "" : "only the technique \"map\" has a warp";
 }
 
 }  // namespace laterna

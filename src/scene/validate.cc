@@ -20,6 +20,7 @@ namespace {
 constexpr int kMaxShadowResolution = 16384;
 constexpr int kLeastKernel = 2, kMostKernel = 9;
 constexpr int kMostSmoothing = 64;
+constexpr int kMostCascades = 8;
 
 std::string item(std::string_view list, std::size_t index) { return fmt::format("{}[{}]", list, index); }
 
@@ -319,6 +320,8 @@ void Validator::check_light(const Light& light, const std::string& place) {
   check_shadow(light.shadow, place + ".shadow");
   if (std::string message = find_fault(light.shadow.depth, light); !message.empty())
     fault(place + ".shadow.depth", std::move(message));
+  if (std::string message = find_fault(light.shadow.warp, light); !message.empty())
+    fault(place + ".shadow.warp", std::move(message));
   if (light.shadow.technique) {
     if (std::string message = find_fault(*light.shadow.technique, light); !message.empty())
       fault(place + ".shadow.technique", std::move(message));
@@ -342,6 +345,7 @@ void Validator::check_source(const Light& light, const std::string& place) {
 
 void Validator::check_shadow(const ShadowSettings& shadow, const std::string& place) {
   check_enumerator(place + ".filter", shadow.filter, ShadowFilter::averaged_depths);
+  check_enumerator(place + ".warp", shadow.warp, ShadowWarp::light_space_perspective);
   check_enumerator(place + ".caster_faces", shadow.caster_faces, CasterFaces::back_only);
   if (shadow.resolution < 0 || shadow.resolution > kMaxShadowResolution) {
     fault(place + ".resolution", fmt::format("expected from 1 to {}, or 0 for the default, got {}",
@@ -356,6 +360,11 @@ void Validator::check_shadow(const ShadowSettings& shadow, const std::string& pl
   check_number(place + ".soft_edge", shadow.soft_edge, 0, kMaxCoordinate);
   check_number(place + ".bleeding_reduction", shadow.bleeding_reduction, 0, 1);
   check_number(place + ".blur", shadow.blur, 0, kMaxShadowBlur);
+  if (shadow.cascades < 1 || shadow.cascades > kMostCascades) {
+    fault(place + ".cascades", fmt::format("expected from 1 to {}, got {}", kMostCascades, shadow.cascades));
+  }
+  check_number(place + ".split_lambda", shadow.split_lambda, 0, 1);
+  check_number(place + ".cascade_distance", shadow.cascade_distance, 0, kMaxCoordinate);
   check_color(place + ".color", shadow.color, 1);
   check_number(place + ".opacity", shadow.opacity, 0, 1);
   check_number(place + ".ambient", shadow.ambient, 0, 1);

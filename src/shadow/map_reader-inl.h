@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "base/vectors-inl.h"
+#include "light/cascades.h"
 #include "shadow/depth_comparison-inl.h"
 #include "shadow/projected_view-inl.h"
 #include "shadow/ray_length-inl.h"
@@ -32,6 +33,7 @@ struct Receiver {
   FloatVector q_dx, q_dy;  // along the receiver's plane, per texel; 0 without a receiver plane
   FloatVector rounding;    // in reversed depth: what arithmetic may have lost
   FloatVector texel;       // the footprint of a texel, as reversed depth
+  FloatVector metre;       // along the ray, as reversed depth
   FloatMask faces_light;   // the side of the surface that is seen is the one the light falls on
   FloatMask is_seen;       // in front of the light and nearer than far
 };
@@ -68,7 +70,7 @@ class MapReader {
   HWY_INLINE Receiver Find(const Points& p) const {
     const auto X = Evaluate(bound_.position.x, p.x, p.y, p.q), Y = Evaluate(bound_.position.y, p.x, p.y, p.q);
     const auto W = Evaluate(bound_.position.divisor, p.x, p.y, p.q),
-               h = Evaluate(bound_.homogeneous, p.x, p.y, p.q);
+               h = Evaluate(bound_.divisor, p.x, p.y, p.q);
     const raster::RasterView& view = map_.view();
     const auto origin_x = Splat(static_cast<float>(view.origin_x)),
                origin_y = Splat(static_cast<float>(view.origin_y));
@@ -86,6 +88,7 @@ class MapReader {
       plane_divisor = hn::Neg(Dot(p.normal_ws, Splat3(bound_.axis_ws)));
       r.texel = Splat(bound_.texel_size);
       r.rounding = error;
+      r.metre = Splat(1.0F);
     } else {
       // Nothing behind the light is seen by it (row 58). The smallest divisor still has a finite inverse.
       const auto is_ahead = W > h * Splat(1e-6F);
@@ -98,16 +101,22 @@ class MapReader {
       // t metres at reversed depth q are t q² of reversed depth; a texel is texel_size / q metres wide.
       r.texel = Splat(bound_.texel_size) * r.q;
       r.rounding = error * r.q * r.q;
+      r.metre = r.q * r.q;
+    }
+    Vector3 step_x = Splat3(bound_.direction_x_ws), step_y = Splat3(bound_.direction_y_ws);
+    if (bound_.is_warped) {
+      const auto homogeneous = Evaluate(bound_.homogeneous, p.x, p.y, p.q);
+      step_x = step_x - p.position_ws * Splat(bound_.direction_x_h);
+      step_y = step_y - p.position_ws * Splat(bound_.direction_y_h);
+      Unwarp(h / homogeneous, step_x, step_y, r);
     }
     r.rounding = r.rounding + Splat(kDepthRounding) * hn::Abs(r.q);
     r.faces_light = plane_divisor < Splat(0.0F);
     // A plane seen edge-on has no slope to speak of; its lit and dark sides meet in one texel.
     const auto is_edge_on = hn::Abs(plane_divisor) <= Splat(1e-9F);
     const auto inverse_divisor = Splat(1.0F) / hn::IfThenElse(is_edge_on, Splat(1.0F), plane_divisor);
-    r.q_dx =
-        hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, Splat3(bound_.direction_x_ws)) * inverse_divisor);
-    r.q_dy =
-        hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, Splat3(bound_.direction_y_ws)) * inverse_divisor);
+    r.q_dx = hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, step_x) * inverse_divisor);
+    r.q_dy = hn::IfThenZeroElse(is_edge_on, Dot(p.normal_ws, step_y) * inverse_divisor);
     return r;
   }
 
@@ -116,7 +125,7 @@ class MapReader {
     // Back sides are in the shadow of their own front, if of anything: there is no self-shadowing to prevent.
     const ShadowBias& b = test_.bias;
     const auto slope = hn::Abs(r.q_dx) + hn::Abs(r.q_dy);
-    const auto metres = Splat(b.metres) * (bound_.is_orthographic ? Splat(1.0F) : r.q * r.q);
+    const auto metres = Splat(b.metres) * r.metre;
     return r.rounding + metres +
            hn::IfThenElseZero(r.faces_light, Splat(b.texels) * r.texel + Splat(b.slope) * slope);
   }
@@ -230,9 +239,30 @@ class MapReader {
     // Smoothstep over the metres that the caster stands before the receiver.
     const auto nearer = depths.stored - (depths.tested + bias);
     const auto scale =
-        bound_.is_orthographic ? Splat(1.0F) : hn::Max(depths.tested * depths.stored, Splat(1e-30F));
+        bound_.is_orthographic ? r.metre : hn::Max(depths.tested * depths.stored, Splat(1e-30F));
     const auto t = Saturate(hn::Max(nearer, Splat(0.0F)) / (scale * Splat(test_.soft_edge)));
     return hn::IfThenElse(is_lit, Splat(1.0F), Splat(1.0F) - t * t * (Splat(3.0F) - (t + t)));
+  }
+
+  // What an orthographic map's numbers are in a warped one. `divisor`: the warp's fourth coordinate; a metre along the
+  // light is the smaller the larger it is. `step_x`, `step_y`: of a texel at the sample, over the divisor.
+  HWY_INLINE void Unwarp(FloatVector divisor, const Vector3& step_x, const Vector3& step_y,
+                         Receiver& r) const {
+    const auto one = Splat(1.0F);
+    const auto is_ahead = divisor > Splat(1e-3F);
+    r.is_seen = hn::And(r.is_seen, is_ahead);
+    r.metre = one / hn::IfThenElse(is_ahead, divisor, one);
+    // Square to the light. Over the divisor a length is reversed depth already.
+    const Vector3 axis = Splat3(bound_.axis_ws);
+    const auto across_squared = [&](const Vector3& step) HWY_ATTR {
+      const auto along = Dot(step, axis);
+      return Dot(step, step) - along * along;
+    };
+    r.texel = hn::Sqrt(hn::Max(hn::Max(across_squared(step_x), across_squared(step_y)), Splat(0.0F)));
+    // An error of the sample's place moves the divisor too, and the warped corners were rounded.
+    const auto nearest = Splat(map_.view().reversed_near);
+    r.rounding =
+        Splat(position_error_) * (one + hn::Abs(nearest - r.q)) * r.metre + Splat(kDepthRounding) * nearest;
   }
 
   // 1 where texel (i, j), whose centre lies (dx, dy) texels from the sample, holds nothing nearer than the receiver's
@@ -330,14 +360,24 @@ class MapReader {
   float position_error_;
 };
 
-// Which map each point asks: the face of the cube through which the ray from the light leaves it.
+// A map's part in the answer for N points.
+struct Share {
+  FloatMask here;       // of the points that ask it
+  FloatVector weight;   // less than 1 where the map is blended over those visited before
+  bool blends = false;  // whether there are such points
+};
+
+// An answer laid over those before it. What is equal stays so bit for bit.
+HWY_INLINE FloatVector LayOver(const Share& share, FloatVector value, FloatVector below) {
+  if (!share.blends) return hn::IfThenElse(share.here, value, below);
+  const auto blended = below + (value - below) * share.weight;
+  return hn::IfThenElse(share.here, hn::IfThenElse(share.weight < Splat(1.0F), blended, value), below);
+}
+
+// The face of the cube through which the ray from the light leaves it.
 template <class Visit>
-HWY_INLINE void ForEachMap(const ShadowMapTest& test, const Vector3& position, Visit visit) {
+HWY_INLINE void ForEachFace(const ShadowMapTest& test, const Vector3& position, Visit visit) {
   const FloatTag d;
-  if (test.maps.size() == 1) {
-    visit(test.maps[0], Splat(0.0F) < Splat(1.0F));
-    return;
-  }
   const Vector3 p = position - Splat3(test.maps[0].eye_ws);
   const auto ax = hn::Abs(p.x), ay = hn::Abs(p.y), az = hn::Abs(p.z);
   const auto is_x = hn::And(ax >= ay, ax >= az);
@@ -348,7 +388,58 @@ HWY_INLINE void ForEachMap(const ShadowMapTest& test, const Vector3& position, V
     const auto component = components[face / 2];
     const auto side = face % 2 == 0 ? component >= Splat(0.0F) : component < Splat(0.0F);
     const auto here = hn::And(axes[face / 2], side);
-    if (!hn::AllFalse(d, here)) visit(test.maps[face], here);
+    if (!hn::AllFalse(d, here)) visit(test.maps[face], Share{here, Splat(1.0F), false});
+  }
+}
+
+// How much of a cascade's answer counts: all inside, less and less over a band along its sides, so that no seam is seen
+// where the next, coarser one takes over.
+HWY_INLINE FloatVector CascadeWeight(const ShadowMapTest& test, const BoundDepthMap& bound, const Points& p) {
+  const raster::RasterView& view = bound.map->view();
+  const auto inverse = Splat(1.0F) / Evaluate(bound.homogeneous, p.x, p.y, p.q);
+  const auto x = Evaluate(bound.position.x, p.x, p.y, p.q) * inverse +
+                 Splat(static_cast<float>(view.origin_x)),
+             y = Evaluate(bound.position.y, p.x, p.y, p.q) * inverse +
+                 Splat(static_cast<float>(view.origin_y));
+  const auto inside_x = hn::Min(x, Splat(static_cast<float>(view.width)) - x);
+  const auto inside_y = hn::Min(y, Splat(static_cast<float>(view.height)) - y);
+  const auto rim = Splat(static_cast<float>(light::cascade_rim(test.kernel)));
+  const auto share_per_texel = Splat(1.0F / light::cascade_band(view.width, view.height));
+  return Saturate((hn::Min(inside_x, inside_y) - rim) * share_per_texel);
+}
+
+// The finest cascade that holds each point, and the next coarser ones in its band. The coarsest is visited first.
+template <class Visit>
+HWY_INLINE void ForEachCascade(const ShadowMapTest& test, const Points& points, Visit visit) {
+  const FloatTag d;
+  const auto one = Splat(1.0F);
+  Share shares[kMostMaps];
+  auto open = Splat(0.0F) < one;  // points that nothing finer answers for alone
+  std::size_t count = 0;
+  for (; count < test.maps.size() && !hn::AllFalse(d, open); ++count) {
+    const bool is_last = count + 1 == test.maps.size();
+    const auto weight = is_last ? one : CascadeWeight(test, test.maps[count], points);
+    shares[count] = {hn::And(open, weight > Splat(0.0F)), weight, true};
+    open = hn::And(open, weight < one);
+  }
+  while (count-- > 0) {
+    if (!hn::AllFalse(d, shares[count].here)) visit(test.maps[count], shares[count]);
+  }
+}
+
+// Visits the maps that points ask, with each one's share.
+template <class Visit>
+HWY_INLINE void ForEachMap(const ShadowMapTest& test, const Points& points, Visit visit) {
+  switch (test.choice) {
+    case MapChoice::only:
+      visit(test.maps[0], Share{Splat(0.0F) < Splat(1.0F), Splat(1.0F), false});
+      break;
+    case MapChoice::face:
+      ForEachFace(test, points.position_ws, visit);
+      break;
+    case MapChoice::finest:
+      ForEachCascade(test, points, visit);
+      break;
   }
 }
 

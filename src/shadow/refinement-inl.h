@@ -463,14 +463,14 @@ HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const SurfaceSa
                                       const Points& points, const Slopes& slopes, IntVector own) {
   Places places = FindPlaces(points, slopes, s.position_error, test.positions);
   auto result = Splat(1.0F);
-  ForEachMap(test, points.position_ws, [&](const BoundDepthMap& map, FloatMask here) HWY_ATTR {
+  ForEachMap(test, points, [&](const BoundDepthMap& map, const Share& share) HWY_ATTR {
     const MapReader reader(test, map, s.position_error);
-    const Suspects suspects = FindSuspects(reader, points, own, here);
+    const Suspects suspects = FindSuspects(reader, points, own, share.here);
     places.is_grazing = IsGrazing(map, points);
     const Blocking blocking = map.is_orthographic ? TestSuspects<true>(test, map, places, suspects, own)
                                                   : TestSuspects<false>(test, map, places, suspects, own);
     const auto alpha = MeanArrival(blocking, test.positions);
-    result = hn::IfThenElse(here, hn::IfThenElse(suspects.is_covered, alpha, reader.Outside()), result);
+    result = LayOver(share, hn::IfThenElse(suspects.is_covered, alpha, reader.Outside()), result);
   });
   return result;
 }

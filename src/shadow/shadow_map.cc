@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "base/stopwatch.h"
 
@@ -18,7 +19,7 @@ BoundDepthMap bind(const DepthMap& map, const raster::RasterView::Ray& ray) {
   BoundDepthMap bound;
   bound.map = &map;
   bound.position = {ProjectedRow(rows.x, ray), ProjectedRow(rows.y, ray), ProjectedRow(rows.w, ray)};
-  bound.homogeneous = homogeneous_row(ray);
+  bound.homogeneous = bound.divisor = homogeneous_row(ray);
   bound.is_orthographic = view.is_orthographic;
   copy(view.eye_ws, bound.eye_ws);
   copy(view.direction_x, bound.direction_x_ws);
@@ -28,6 +29,27 @@ BoundDepthMap bind(const DepthMap& map, const raster::RasterView::Ray& ray) {
   const double y = glm::length(view.direction_y);
   bound.texel_size = static_cast<float>(x > y ? x : y);
   return bound;
+}
+
+// A warped map is an orthographic one of the warped world: rows over points of that are rows over points of the world
+// times the warp.
+void apply(const light::Warp& warp, const raster::RasterView::Ray& ray, BoundDepthMap& bound) {
+  const raster::RasterView& view = bound.map->view();
+  const PixelRows rows(view);
+  const auto in_world = [&](const glm::dvec4& row) {
+    return ProjectedRow(row * warp.warped_from_world, ray);
+  };
+  bound.position = {in_world(rows.x), in_world(rows.y), in_world(rows.w)};
+  bound.divisor = in_world(glm::dvec4(0, 0, 0, 1));
+  const glm::dmat4 world_from_warped = glm::inverse(warp.warped_from_world);
+  const glm::dvec4 step_x = world_from_warped * glm::dvec4(view.direction_x, 0);
+  const glm::dvec4 step_y = world_from_warped * glm::dvec4(view.direction_y, 0);
+  copy(glm::dvec3(step_x), bound.direction_x_ws);
+  copy(glm::dvec3(step_y), bound.direction_y_ws);
+  bound.direction_x_h = static_cast<float>(step_x.w);
+  bound.direction_y_h = static_cast<float>(step_y.w);
+  copy(-warp.light_view.pose.forward_ws(), bound.axis_ws);
+  bound.is_warped = true;
 }
 
 }  // namespace
@@ -53,7 +75,15 @@ ShadowMapTest make_shadow_map_test(const light::PlannedLight& planned,
                                    const raster::RasterView::Ray& ray, int samples_per_pixel,
                                    InstructionSet set) {
   ShadowMapTest test;
-  for (const auto& map : maps) test.maps.push_back(bind(*map, ray));
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    test.maps.push_back(bind(*maps[i], ray));
+    const bool is_warped = i < planned.shadow_views.size() && planned.shadow_views[i].warp;
+    if (is_warped) apply(*planned.shadow_views[i].warp, ray, test.maps.back());
+  }
+  if (maps.size() > 1) {
+    test.choice =
+        planned.technique == laterna::ShadowTechnique::cascades ? MapChoice::finest : MapChoice::face;
+  }
   test.bias = bias_of(planned.settings);
   test.filter = filter_of(planned.settings);
   test.frame = &frame;

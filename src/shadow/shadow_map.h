@@ -2,6 +2,7 @@
 // Rendering antialiased shadows with depth maps, 1987.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -32,17 +33,31 @@ struct BoundDepthMap {
   const DepthMap* map = nullptr;
   ProjectedView position;    // pixel-homogeneous
   ProjectedRow homogeneous;  // the samples' fourth coordinate
+  ProjectedRow divisor;      // orthographic: of the three; the fourth coordinate, or that of the warp
   bool is_orthographic = false;
   float eye_ws[3];  // perspective
   float direction_x_ws[3],
       direction_y_ws[3];  // of one texel to the right and down, at distance 1 (perspective) or in metres
   float axis_ws[3];       // orthographic: toward the light
   float texel_size = 0;   // at distance 1, or in metres
+  // A warped map's texel steps have a fourth coordinate: how much of a sample's own place is taken from them. Their other
+  // three are direction_x_ws and direction_y_ws.
+  bool is_warped = false;
+  float direction_x_h = 0, direction_y_h = 0;
 };
+
+/// Which of a light's maps a sample asks.
+enum class MapChoice : std::uint8_t {
+  only,  ///< there is one
+  face,  ///< six faces of a cube in the order of light::cube_views: the one that the ray from the light passes
+  finest  ///< one within the other, the finest first: the first that holds the sample, blended with the next at its rim
+};
+inline constexpr std::size_t kMostMaps = 8;
 
 /// What one light's look-ups need.
 struct ShadowMapTest {
-  std::vector<BoundDepthMap> maps;  // one, or six cube faces in the order of light::cube_views
+  std::vector<BoundDepthMap> maps;
+  MapChoice choice = MapChoice::only;
   ShadowBias bias;
   ShadowFilter filter = ShadowFilter::refined;
   const frame::Frame* frame = nullptr;                    // refined: where the triangles are

@@ -31,14 +31,14 @@ void look_up_shadow_map(const ShadowMapTest& test, const SurfaceSamples& samples
       const Points points = LoadPoints(samples, i);
       auto result = Splat(test.outside_is_lit ? 1.0F : 0.0F);
       auto is_unsure = Splat(0.0F) > Splat(1.0F);
-      ForEachMap(test, points.position_ws, [&](const BoundDepthMap& map, FloatMask here) HWY_ATTR {
+      ForEachMap(test, points, [&](const BoundDepthMap& map, const Share& share) HWY_ATTR {
         const MapReader reader(test, map, samples.position_error);
         if (test.filter == ShadowFilter::refined) {
           const Quick quick = QuickArrival(reader, points);
-          result = hn::IfThenElse(here, quick.alpha, result);
-          is_unsure = hn::Or(is_unsure, hn::And(here, quick.unsure));
+          result = LayOver(share, quick.alpha, result);
+          is_unsure = hn::Or(is_unsure, hn::And(share.here, quick.unsure));
         } else {
-          result = hn::IfThenElse(here, reader.Arrival(reader.Find(points)), result);
+          result = LayOver(share, reader.Arrival(reader.Find(points)), result);
         }
       });
       hn::Store(result, FloatTag(), alpha + i);
@@ -108,10 +108,10 @@ void find_missing_tiles(const ShadowMapTest& test, const SurfaceSamples& samples
       const std::uint32_t bits = std::uint32_t{wanted[group]} >> k & ((1U << kLanes) - 1);
       if (bits == 0) continue;
       const Points points = LoadPoints(samples, group * kGroupSize + k);
-      ForEachMap(test, points.position_ws, [&](const BoundDepthMap& bound, FloatMask here) HWY_ATTR {
+      ForEachMap(test, points, [&](const BoundDepthMap& bound, const Share& share) HWY_ATTR {
         const MapReader reader(test, bound, samples.position_error);
         const Receiver r = reader.Find(points);
-        const auto asked = hn::And(hn::And(here, r.is_seen), MaskFromBits(bits));
+        const auto asked = hn::And(hn::And(share.here, r.is_seen), MaskFromBits(bits));
         if (hn::AllFalse(d, asked)) return;
         TileFinder finder(test, static_cast<std::size_t>(&bound - test.maps.data()), missing);
         const auto low = [&](FloatVector v) HWY_ATTR {

@@ -230,7 +230,8 @@ void look_up_soft_shadow_map(const SoftShadowTest& test, const SurfaceSamples& s
       const Points points = LoadPoints(samples, i);
       auto result = Splat(hard.outside_is_lit ? 1.0F : 0.0F);
       auto is_unsure = Splat(0.0F) > Splat(1.0F);
-      ForEachMap(hard, points.position_ws, [&](const BoundDepthMap& map, FloatMask here) HWY_ATTR {
+      ForEachMap(hard, points, [&](const BoundDepthMap& map, const Share& share) HWY_ATTR {
+        const auto here = share.here;
         const MapReader reader(hard, map, samples.position_error);
         const auto& soft_map = test.maps[static_cast<std::size_t>(&map - hard.maps.data())];
         const SoftArrival soft =

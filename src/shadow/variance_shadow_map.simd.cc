@@ -191,7 +191,8 @@ void look_up_variance_shadow_map(const VarianceShadowTest& test, const SurfaceSa
       const Points points = LoadPoints(samples, i);
       const auto dq_dx = hn::Load(d, samples.dq_dx.data() + i), dq_dy = hn::Load(d, samples.dq_dy.data() + i);
       auto result = Splat(test.hard.outside_is_lit ? 1.0F : 0.0F);
-      ForEachMap(test.hard, points.position_ws, [&](const BoundDepthMap& map, FloatMask here) HWY_ATTR {
+      ForEachMap(test.hard, points, [&](const BoundDepthMap& map, const Share& share) HWY_ATTR {
+        const auto here = share.here;
         const MapReader reader(test.hard, map, samples.position_error);
         const Receiver r = reader.Find(points);
         const auto zero = Splat(0.0F);

@@ -256,12 +256,33 @@ const RigCase kRigCases[] = {
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"technique\": \"ray\", "
      "\"resolution\": 0, \"kernel\": 10,\n\"bias\": 1, \"outside\": \"dark\"}}]}",
      "r.json: line 1: lights[0].shadow.technique: expected one of \"none\", \"ground\", "
-     "\"silhouette\", \"map\", \"pcss\", \"variance\", \"volume\", \"exact\", \"raytraced\", got \"ray\" "
+     "\"silhouette\", \"map\", \"pcss\", \"variance\", \"cascades\", \"volume\", \"exact\", \"raytraced\", "
+     "got \"ray\" "
      "(did you mean \"raytraced\"?)\n"
      "r.json: line 1: lights[0].shadow.resolution: expected a whole number from 1 to 16384, got 0\n"
      "r.json: line 1: lights[0].shadow.kernel: expected a whole number from 2 to 9, got 10\n"
      "r.json: line 2: lights[0].shadow.outside: expected one of \"lit\", \"shadowed\", got \"dark\"\n"
      "r.json: line 2: lights[0].shadow.bias: a shadow has no key \"bias\" (did you mean \"constant_bias\"?)"},
+    {"ShadowCascades",
+     "{\"lights\": [{\"type\": \"directional\", \"position\": [0,9,0], \"target\": [0,0,1], \"shadow\": "
+     "{\"technique\": \"cascades\",\n\"cascades\": 9, \"split_lambda\": 1.5, \"cascade_distance\": 0}}]}",
+     "r.json: line 2: lights[0].shadow.cascades: expected a whole number from 1 to 8, got 9\n"
+     "r.json: line 2: lights[0].shadow.split_lambda: expected a number from 0 to 1, got 1.5\n"
+     "r.json: line 2: lights[0].shadow.cascade_distance: expected a number greater than 0 and at most "
+     "1000000000, got "
+     "0"},
+    {"ShadowCascadesOfALamp",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"technique\": "
+     "\"cascades\"}}]}",
+     "r.json: line 1: lights[0].shadow.technique: cascades share out the parallel light of a directional "
+     "light: "
+     "other lights have \"map\""},
+    {"ShadowWarpOfALamp",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"warp\": "
+     "\"light_space_perspective\"}}]}",
+     "r.json: line 1: lights[0].shadow.warp: only the map of a directional light that is fitted to the scene "
+     "can be "
+     "warped"},
     {"ShadowFilterMisspelt",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"filter\": "
      "\"percentage-closer\", "

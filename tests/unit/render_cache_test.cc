@@ -57,6 +57,36 @@ Drawn draw(const Renderer& renderer, const View& view, const RenderSettings& set
   return drawn;
 }
 
+// Cascades follow the camera: a picture never reads those of another one's, and those that have not moved are kept.
+TEST(ShadowMapCache, CascadesAreDrawnAnewWhereTheCameraHasMovedThem) {
+  OneLight one = one_light(LightType::directional);
+  for (int i = 0; i < 12; ++i)
+    reference::add_object(one.scene, "far",
+                          reference::box({3, 1, -10.0F * static_cast<float>(i)}, {1, 1, 1}));
+  one.scene.lights[0].shadow.technique = ShadowTechnique::cascades;
+  const Renderer renderer = reference::make_renderer(one.scene);
+  RenderSettings anew = small_settings();
+  anew.keep_shadow_maps = false;
+  int drawn_maps = 0, kept_maps = 0;
+  for (int frame = 0; frame < 12; ++frame) {
+    const View view = on_path(frame / 2);
+    const Drawn drawn = draw(renderer, view, small_settings());
+    EXPECT_TRUE(same_bits(drawn.picture, draw(reference::make_renderer(one.scene), view, anew).picture))
+        << frame;
+    const int maps = drawn.statistics.maps_drawn + drawn.statistics.maps_kept;
+    EXPECT_GT(maps, 1);
+    if (frame % 2 == 1) {
+      EXPECT_EQ(drawn.statistics.maps_kept, maps);
+    } else {
+      EXPECT_GT(drawn.statistics.maps_drawn, 0);
+    }
+    drawn_maps += drawn.statistics.maps_drawn;
+    kept_maps += drawn.statistics.maps_kept;
+  }
+  EXPECT_GT(drawn_maps, 6);
+  EXPECT_GT(kept_maps, 6 * 2);
+}
+
 TEST(ShadowMapCache, AHundredPicturesFromAMovingCameraDrawOneMap) {
   Renderer renderer = reference::make_renderer(one_light().scene);
   RenderSettings without = small_settings();

@@ -240,6 +240,16 @@ TEST(Rig, Shadows) {
   EXPECT_EQ(shadow_of(R"({"filter": "bilinear"})").filter, ShadowFilter::bilinear);
   EXPECT_EQ(shadow_of(R"({"filter": "percentage_closer"})").kernel, 3);
   EXPECT_EQ(shadow_of(R"({"technique": "map"})").technique, ShadowTechnique::map);
+  EXPECT_EQ(
+      load_light(
+          R"("type": "directional", "position": [1, 2, 3], "target": [0, 0, 0], "shadow": {"warp": "light_space_perspective"})")
+          .shadow.warp,
+      ShadowWarp::light_space_perspective);
+  const ShadowSettings cascades =
+      shadow_of(R"({"cascades": 8, "split_lambda": 0, "cascade_distance": 30.5})");
+  EXPECT_EQ(cascades.cascades, 8);
+  EXPECT_EQ(cascades.split_lambda, 0);
+  EXPECT_EQ(cascades.cascade_distance, 30.5);
   EXPECT_EQ(shadow_of(R"({"technique": "none"})").technique, ShadowTechnique::none);
   EXPECT_EQ(shadow_of(R"({"technique": "pcss"})").technique, ShadowTechnique::pcss);
 }
