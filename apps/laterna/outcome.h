@@ -28,6 +28,7 @@ void declare_inspect(CLI::App& app, Run& run);
 void declare_depthmap(CLI::App& app, Run& run);
 void declare_diff(CLI::App& app, Run& run);
 void declare_bench(CLI::App& app, Run& run);
+void declare_gallery(CLI::App& app, Run& run);
 void declare_doctor(CLI::App& app, Run& run);
 
 }  // namespace laterna::app
