@@ -1,0 +1,180 @@
+// Bentley, Two shadow rendering algorithms, 1995 (document 004).
+#include <glm/glm.hpp>
+
+#include "paintings.h"
+#include "sets.h"
+
+namespace laterna::app {
+namespace {
+
+void draw_floating(Sitting& sitting) {
+  Shot shot = teapot_set();
+  add_morning_sun(shot.scene);
+  sitting.picture("No shadow: does it stand, or float?", shot.with(ShadowTechnique::none));
+  sitting.picture("With its shadow it stands on the tiles.", shot.with(ShadowTechnique::ground));
+  // Nearer to the eye and smaller by the same factor, everything but its shadow stays where it was in the picture.
+  scale_about(shot.scene.meshes.back().primitives.front(), glm::vec3(shot.camera.from), 0.72F);
+  sitting.picture(
+      "Another teapot, smaller and nearer to the eye: without a shadow it could not be told from the first.",
+      shot.with(ShadowTechnique::ground));
+}
+
+/// Solids whose shadows meet the floor only.
+Shot ring_and_urn() {
+  Shot shot = teapot_set();
+  add_object(shot.scene, "ring", ring({-0.75F, 0.33F, -0.55F}, {0.5F, 0.1F, 1}, 0.26F, 0.07F),
+             add_material(shot.scene, "clay", {0.62F, 0.24F, 0.12F}));
+  shot.camera = {{0.6, 2.0, 3.1}, {-0.1, 0.15, -0.25}};
+  return shot;
+}
+
+void draw_ground(Sitting& sitting) {
+  Shot two = ring_and_urn();
+  add_sun(two.scene, "warm", {{-3, 4, 2.2}, {0, 0, 0}}, {0.62F, 0.48F, 0.36F});
+  add_sun(two.scene, "cool", {{3.4, 3.6, 1.2}, {0, 0, 0}}, {0.30F, 0.40F, 0.52F});
+  sitting.picture("Two lights at infinity: every shadow is an affine image of its caster.",
+                  two.with(ShadowTechnique::ground));
+  Shot local = ring_and_urn();
+  add_lamp(local.scene, "lamp", {{-0.9, 1.7, 0.9}, {-0.2, 0, -0.3}}, Angle::degrees(65),
+           {0.95F, 0.90F, 0.80F});
+  sitting.picture("A local light: shadows spread, and grow with the distance from it.",
+                  local.with(ShadowTechnique::ground));
+}
+
+void draw_anything(Sitting& sitting) {
+  Shot shot = solids_set();
+  add_morning_sun(shot.scene);
+  sitting.picture("Ground shadows: nothing falls on the plinth, the ring or the teapot.",
+                  shot.with(ShadowTechnique::ground));
+  sitting.picture("Shadow z-buffer: shadows on everything, of everything.", shot.with(ShadowTechnique::map));
+}
+
+void draw_light_views(Sitting& sitting) {
+  Shot shot = solids_set();
+  add_two_lamps(shot.scene);
+  for (const char* light : {"left", "right"}) {
+    const std::string name = light;
+    sitting.light_view("The scene as the " + name + " lamp sees it: its own shadows it cannot see.", shot,
+                       name);
+    sitting.depth_map("All that is kept of that view: depth. Near is light, far is dark.", shot, name);
+  }
+  sitting.picture("The scene from the eye, each point looked up in both.", shot);
+}
+
+/// A ring and a teapot with textures, close enough to see them shadow themselves.
+Shot textured_ring() {
+  Shot shot;
+  Scene& scene = shot.scene;
+  set_mood(scene, 0.22F);
+  add_floor(scene);
+  const int boards =
+      add_material(scene, "boards", glm::vec3(1), add_picture(scene, "boards", paint_boards(256)));
+  const int coat = add_material(scene, "coat", glm::vec3(1), add_picture(scene, "coat", paint_coat(256)));
+  add_object(scene, "ring", ring({-0.4F, 0.61F, 0}, {0.4F, 0.05F, 0.95F}, 0.45F, 0.16F), boards);
+  add_object(scene, "teapot", teapot({0.75F, 0, -0.25F}), coat);
+  add_sun(scene, "sun", {{-3.4, 2.5, 2.2}, {0, 0, 0}}, {0.95F, 0.90F, 0.80F});
+  shot.camera = {{0.75, 1.75, 2.6}, {0.16, 0.36, -0.05}};
+  return shot;
+}
+
+void draw_textured(Sitting& sitting) {
+  const Shot shot = textured_ring();
+  sitting.picture("No shadows: light passes through everything.", shot.with(ShadowTechnique::none));
+  sitting.picture("Textured surfaces shadow the floor, each other and themselves.", shot);
+}
+
+void draw_fudge(Sitting& sitting) {
+  Shot shot = textured_ring();
+  ShadowSettings& shadow = shot.scene.lights.front().shadow;
+  shadow.resolution = 256;
+  shadow.filter = ShadowFilter::nearest;
+  shadow.constant_bias = 0.0;
+  shadow.slope_bias = 0.0;
+  sitting.picture("Fudge factor 0: surfaces shadow themselves, in stripes.", shot);
+  shadow.constant_bias = 0.05;
+  sitting.picture("5 cm: most of the stripes are gone.", shot);
+  shadow.constant_bias = 0.25;
+  sitting.picture("25 cm: so are shadows near what throws them.", shot);
+  shadow.constant_bias.reset();
+  shadow.slope_bias.reset();
+  sitting.picture("The same map, its fudge factor found from each surface's slope and texel.", shot);
+}
+
+void draw_families(Sitting& sitting) {
+  Shot shot = solids_set();
+  add_two_lamps(shot.scene);
+  sitting.picture("Shadow polygons on the ground.", shot.with(ShadowTechnique::ground));
+  sitting.picture("Shadow z-buffer.", shot.with(ShadowTechnique::map));
+  sitting.picture("Rays from points to the lights.", shot.with(ShadowTechnique::raytraced));
+  sitting.picture("Shadow volumes.", shot.with(ShadowTechnique::volume));
+  sitting.picture("Projected silhouettes, the technique of Chen and Tung, for comparison.",
+                  shot.with(ShadowTechnique::silhouette));
+}
+
+constexpr Figure kFigures[] = {
+    {"floating", "An object that floats, and one that is grounded",
+     "Bentley, \"Object rendered with no shadow, appears to float above plane\"",
+     "A shadow says where a thing is. Without one, two teapots of different sizes at different places give "
+     "the same "
+     "picture; their shadows tell them apart.",
+     "",
+     "laterna render teapot.glb --shadows none -o floating.png\nlaterna render teapot.glb --shadows ground "
+     "-o grounded.png",
+     draw_floating},
+    {"ground-lights", "The ground transformation: two lights at infinity, and a local one",
+     "Bentley, \"Shadows using 'ground transformation'\", cases 1 and 2",
+     "One matrix per light carries every triangle to the plane. Where two shadows meet, each light is "
+     "missing once: the "
+     "overlap is darker, and no pixel is darkened twice by one light.",
+     "Only the plane is shadowed: see the next figure.",
+     "laterna render scene.glb --rig lights.json --shadows ground -o ground.png", draw_ground},
+    {"not-only-the-ground", "The z-buffer algorithm shadows not only the ground",
+     "Bentley, \"The Z-buffer algorithm produces shadows not only on z = 0 plane\"",
+     "The same scene and sun both ways. On the floor the two agree.",
+     "Ground polygons cannot shadow objects, and throw shadows on the floor even under what has already "
+     "caught them: "
+     "Bentley says so, and it is true here.",
+     "laterna render scene.glb --shadows ground -o ground.png\nlaterna render scene.glb --shadows map -o "
+     "map.png",
+     draw_anything},
+    {"light-views", "What the lights see", "Bentley, \"Object as viewed from light #1\" and \"#2\"",
+     "The scene is drawn once from each lamp, for its depths alone; whatever a lamp does not see is in its "
+     "shadow.",
+     "One map for each light: memory grows with their number.",
+     "laterna render scene.glb --rig lamps.json --from-light left -o from-left.png\n"
+     "laterna depthmap scene.glb --rig lamps.json --light left -o depth-left.png",
+     draw_light_views},
+    {"textured", "Textures, and surfaces that shadow themselves",
+     "Bentley, \"Shadowing of texture mapped objects\" and \"Visible surfaces shadowing themselves\"",
+     "The hole of the ring, the teapot's handle and spout throw shadows on the surfaces they belong to, and "
+     "the pattern "
+     "shows through.",
+     "", "laterna render scene.glb -o textured.png", draw_textured},
+    {"fudge-factor", "The fudge factor", "Bentley, on points \"shadowing themselves\"",
+     "A map of 256 texels read at the nearest one, with growing distances that points may lie behind what "
+     "the map holds.",
+     "No constant serves every slope: what removes the last stripe has already detached shadows from their "
+     "casters. "
+     "Laterna's default needs none: it predicts each texel's depth on the receiver's own plane.",
+     "\"shadow\": {\"resolution\": 256, \"filter\": \"nearest\", \"constant_bias\": 0.05, \"slope_bias\": 0}",
+     draw_fudge},
+    {"families", "The families of shadow algorithms", "Bentley, the list of methods",
+     "Bentley's methods on one scene with two lamps. The sixth, radiosity, is not drawn: it needs light that "
+     "is "
+     "reflected from surface to surface, which Laterna does not follow yet.",
+     "Ground polygons reach only the floor, and silhouettes know no depth within an object, so nothing "
+     "shadows itself; "
+     "the other three agree but for pixels at edges.",
+     "laterna render scene.glb --rig lamps.json --shadows map -o map.png\n"
+     "and so on with ground, raytraced, volume and silhouette",
+     draw_families},
+};
+
+}  // namespace
+
+Chapter bentley_chapter() {
+  return {"Bentley: Two Shadow Rendering Algorithms, 1995",
+          "Ground polygons against the shadow z-buffer, and a list of the other ways.", kFigures};
+}
+
+}  // namespace laterna::app
