@@ -99,7 +99,7 @@ std::vector<glm::dvec2> random_places(const glm::dvec2& middle, double reach, un
 
 std::vector<float> look_up(const light::PlannedLight& planned, const Maps& maps, const frame::Frame& frame,
                            const FloorSamples& floor, InstructionSet set) {
-  const ShadowMap shadow(planned, maps, frame, floor.view.homogeneous_ray(), 4, set);
+  const ShadowMap shadow(planned, maps, frame, nullptr, floor.view.homogeneous_ray(), 4, set);
   const std::vector<std::uint16_t> wanted(kMaxGroups, 0xFFFF);
   auto arrival = std::make_unique<Arrival>();
   shadow.find_arrival(*floor.samples, wanted, *arrival);

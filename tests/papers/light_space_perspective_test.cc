@@ -107,7 +107,8 @@ TEST(LightSpacePerspective, IsNearerToTheTruthThanAnUnwarpedMapOfTheSameSize) {
       const int with = count_wrong(
           render(make_renderer(street(warped(filter), toward).scene), made.camera, wanted()), truth);
       EXPECT_LT(2 * with, without) << "filter " << static_cast<int>(filter) << " sun " << toward.x;
-      EXPECT_GT(without, 100);
+      // The refined filter finds what texels missed through its neighbours: a few pixels are left to better.
+      EXPECT_GT(without, filter == ShadowFilter::refined ? 3 : 100);
     }
   }
 }

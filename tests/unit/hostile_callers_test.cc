@@ -43,7 +43,7 @@ TEST(HostileCallers, NumbersThatAreNoEnumeratorsAreRefused) {
   const std::vector<Diagnostic> faults = validate(scene);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(to_string(faults[0]),
-            "lights[0].shadow.filter: 7 is no value of the enumeration, which ends at 3");
+            "lights[0].shadow.filter: 7 is no value of the enumeration, which ends at 4");
 }
 
 TEST(HostileCallers, PointsAreInspectedOnlyWhereTheyAre) {

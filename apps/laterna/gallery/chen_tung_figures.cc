@@ -42,7 +42,7 @@ void draw_smoothing(Sitting& sitting) {
   shot.settings.width = 400;
   shot.settings.height = 300;
   for (int passes = 0; passes <= 10; ++passes) {
-    set_smooth(shadow, passes);
+    shadow.smooth = passes;
     sitting.detail(fmt::format("n = {}", passes), shot, {0.28, 0.36, 0.5, 0.5, 2});
   }
 }
@@ -77,7 +77,7 @@ void draw_soft_models(Sitting& sitting) {
     Shot shot = parade_set(ground).with(ShadowTechnique::silhouette);
     ShadowSettings& shadow = add_morning_sun(shot.scene).shadow;
     shadow.resolution = 256;
-    set_smooth(shadow, 6);
+    shadow.smooth = 6;
     sitting.picture(ground == Ground::plane ? "On a plane." : "On a terrain.", shot);
   }
 }

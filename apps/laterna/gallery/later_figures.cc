@@ -42,7 +42,7 @@ Shot fence_before_a_window() {
 void draw_soft(Sitting& sitting) {
   const Shot shot = fence_before_a_window();
   Shot smoothed = shot.with(ShadowTechnique::silhouette);
-  set_smooth(smoothed.scene.lights.front().shadow, 10);
+  smoothed.scene.lights.front().shadow.smooth = 10;
   sitting.picture("A silhouette, smoothed ten times: as soft at the foot of the fence as far from it.",
                   smoothed);
   sitting.picture(

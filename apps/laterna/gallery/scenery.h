@@ -29,12 +29,6 @@ Light& add_projector(Scene& scene, std::string name, Gaze gaze, Angle yfov, int 
 
 /// A tiled floor at y = 0, `size` metres square. The object's node.
 int add_floor(Scene& scene, float size = 8);
-/// So many passes of smoothing for silhouettes.
-template <class Settings>
-void set_smooth(Settings& settings, int passes) {
-  if constexpr (requires { settings.smooth; }) settings.smooth = passes;
-}
-
 /// Light from everywhere, and a sky.
 void set_mood(Scene& scene, float ambient);
 
