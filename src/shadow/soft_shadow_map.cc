@@ -95,9 +95,8 @@ const TapPattern& square_pattern() {
 
 SoftShadowMap::SoftShadowMap(const light::PlannedLight& planned,
                              std::span<const std::shared_ptr<DepthMap>> maps, const frame::Frame& frame,
-                             const frame::TriangleNeighbours* neighbours,
-                             const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set,
-                             const TaskPool& pool)
+                             const frame::TriangleNeighbours* neighbours, const raster::RasterView::Ray& ray,
+                             int samples_per_pixel, InstructionSet set, const TaskPool& pool)
     : maps_(maps.begin(), maps.end()) {
   test_.hard = make_shadow_map_test(planned, maps, frame, neighbours, ray, samples_per_pixel, set);
   for (const auto& map : maps) {
