@@ -94,6 +94,11 @@ Result<void> write_difference(const AccuracyReport& report, const std::string& f
 // Without shadows nothing can be right: `none` is held to limits only where it was asked for by name.
 int check_limits(const AccuracyReport& report, const std::vector<AccuracyLimit>& limits, bool is_none_meant) {
   int code = kOk;
+  if (report.measured.empty() && !limits.empty()) {
+    fmt::print(stderr,
+               "laterna: error: --fail: nothing could be measured, so nothing is within its limits\n");
+    return kComparisonFailed;
+  }
   for (const ShadowAccuracy& measured : report.measured) {
     if (measured.technique == ShadowTechnique::none && !is_none_meant) continue;
     for (const AccuracyLimit& limit : limits) {
@@ -114,6 +119,8 @@ Result<AccuracySettings> read_settings(const Options& options, const RenderSetti
   if (!techniques) return tl::unexpected(techniques.error());
   settings.techniques = *techniques;
   if (options.lights != "auto") settings.lights = split_list(options.lights);
+  if (settings.lights.empty() && options.lights != "auto" && !options.lights.empty())
+    return tl::unexpected(bad_option(fmt::format("--lights: \"{}\" names no light", options.lights)));
   settings.resolution = options.resolution;
   settings.subpixels = options.subpixels;
   settings.frames = options.frames;

@@ -87,6 +87,8 @@ Result<std::vector<AccuracyLimit>> parse_limits(const std::string& list) {
     if (!limit) return tl::unexpected(std::move(limit.error()));
     limits.push_back(std::move(*limit));
   }
+  if (limits.empty() && !list.empty())
+    return tl::unexpected(bad_option(fmt::format("--fail: \"{}\" names no measure", list)));
   return limits;
 }
 

@@ -114,8 +114,10 @@ ShadowView orthographic_view(const PlacedLight& placed, const SilhouetteObject& 
   double near = z - deep;
   // A light with a box of its own begins at its near plane.
   const bool has_near = placed.light->type != LightType::directional || !placed.light->fit;
-  if (has_near) near = std::min(std::max(near, placed.view.projection.near), z + 0.999 * deep);
-  return {{placed.pose, {true, x - half, x + half, y - half, y + half, near, z + deep}}, side, side};
+  if (has_near) near = std::max(near, placed.view.projection.near);
+  // Of an object wholly before it nothing is drawn.
+  const double far = std::max(z + deep, near + deep);
+  return {{placed.pose, {true, x - half, x + half, y - half, y + half, near, far}}, side, side};
 }
 
 // About the object's sphere, which the light is outside of. Nothing but the object is drawn, so that the planes need not
@@ -127,8 +129,7 @@ ShadowView perspective_view(const PlacedLight& placed, const SilhouetteObject& o
   const double tangent = radius / std::sqrt((distance - radius) * (distance + radius));
   const double half = tangent / inner_share(side, margin);
   const glm::dvec3 up = std::abs(gaze.y) > 0.99 * distance ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
-  double near = 0.5 * (distance - radius);
-  if (placed.light->type == LightType::projector) near = std::max(near, placed.view.projection.near);
+  const double near = 0.5 * (distance - radius);
   ShadowView shadow;
   shadow.view.pose = *Pose::look_at(placed.pose.position_ws, object.sphere.centre, up);
   shadow.view.projection = {false, -half, half, -half, half, near, std::numeric_limits<double>::infinity()};
@@ -143,12 +144,22 @@ double square_of_half_diagonal(const ShadowView& shadow) {
   return x * x + y * y;
 }
 
+// Whether some of the object lies before the projector's near plane, which lies across the projector's own axis: only
+// the projector's own view cuts it there.
+bool is_cut_by_near_plane(const PlacedLight& placed, const SilhouetteObject& object) {
+  if (placed.light->type != LightType::projector) return false;
+  const glm::dvec3 forward = placed.pose.forward_ws();
+  const glm::dvec3 centre = 0.5 * (object.low_ws + object.high_ws) - placed.pose.position_ws;
+  const double reach = glm::dot(glm::abs(forward), 0.5 * (object.high_ws - object.low_ws));
+  return glm::dot(forward, centre) - reach < placed.view.projection.near;
+}
+
 std::vector<ShadowView> occluder_views(const PlannedLight& planned, const SilhouetteObject& object,
                                        const std::vector<ShadowView>& own_views, int margin) {
   const PlacedLight& placed = *planned.placed;
   const int side = planned.settings.resolution;
   if (placed.light->type == LightType::directional) return {orthographic_view(placed, object, side, margin)};
-  if (is_parallel(placed)) return own_views;
+  if (is_parallel(placed) || is_cut_by_near_plane(placed, object)) return own_views;
   const double distance = glm::distance(object.sphere.centre, placed.pose.position_ws);
   if (object.sphere.radius >= kWidestSine * distance) return own_views;
   ShadowView about = perspective_view(placed, object, side, margin);

@@ -90,6 +90,7 @@ class Measurement {
     Light changed = renderer_.scene().lights[static_cast<std::size_t>(light)];
     changed.enabled = on;
     changed.shadow.technique = technique;
+    if (technique != ShadowTechnique::map) changed.shadow.warp = ShadowWarp::none;  // maps alone have one
     return renderer_.set_light(light, std::move(changed));
   }
 

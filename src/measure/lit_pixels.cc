@@ -37,8 +37,10 @@ Result<LitPixels> LitPixels::find(const Renderer& renderer, const PictureSurface
     const glm::dvec3 point_ws(surface.position_ws[i]);
     const double facing = glm::dot(glm::dvec3(surface.normal_ws[i]), direction_to(*found.light_, point_ws));
     LitPixel& pixel = found.pixels_[i];
-    pixel.is_turned_away = facing <= 0;
-    if (facing <= 0 || !found.reaches(point_ws)) continue;
+    // Light along a surface does not fall on it, and rounding gives it either sign.
+    constexpr double kAlong = 1e-5;
+    pixel.is_turned_away = facing <= kAlong;
+    if (facing <= kAlong || !found.reaches(point_ws)) continue;
     pixel = found.locate(point_ws);
     pixel.slope =
         static_cast<float>(pixel.footprint * std::sqrt(std::max(0.0, 1 - facing * facing)) / facing);

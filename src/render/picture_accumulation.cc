@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "raster/triangle_bins.h"
 #include "render/picture_writer.h"
@@ -70,11 +69,11 @@ void PictureAccumulation::add() {
     luminance_ += static_cast<double>(luminance);
   }
   ++count_;
+  if (count_ % 2 == 0) noise_ = estimate_noise();
 }
 
 // Of N independent pictures, half of how the means of two halves differ has the variance of the mean.
-double PictureAccumulation::noise() const {
-  if (count_ < 2 || count_ % 2 != 0) return std::numeric_limits<double>::infinity();
+double PictureAccumulation::estimate_noise() const {
   if (luminance_ <= 0) return 0;
   double squares = 0;
   for (const float difference : alternating_)

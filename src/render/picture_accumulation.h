@@ -24,8 +24,8 @@ class PictureAccumulation {
 
   [[nodiscard]] int count() const { return count_; }
   /// Estimated standard error of the mean's luminance over all pixels, as a fraction of the mean luminance: from how the
-  /// pictures of even and odd number differ, so it means something after an even number of them. Infinite before.
-  [[nodiscard]] double noise() const;
+  /// pictures of even and odd number differ, at the last even number of them; 0 before the second.
+  [[nodiscard]] double noise() const { return noise_; }
   /// Takes the mean. To be called once, after the last picture.
   void finish();
   /// Writes the mean; the target has been checked (PictureWriter::create).
@@ -41,6 +41,7 @@ class PictureAccumulation {
   };
   [[nodiscard]] const Slot& slot(const std::string& name) const;
   void sum_lights(int channel);
+  [[nodiscard]] double estimate_noise() const;
 
   RenderSettings settings_;
   const TaskPool& pool_;
@@ -48,6 +49,7 @@ class PictureAccumulation {
   std::vector<Slot> slots_;
   Plane alternating_;  // luminance of even pictures less that of odd ones
   double luminance_ = 0;
+  double noise_ = 0;
   int count_ = 0;
 };
 

@@ -36,6 +36,9 @@ int band_count(const frame::Frame& frame, int tile_rows) {
       std::clamp<std::size_t>((bytes + kBinMemory - 1) / kBinMemory, 1, static_cast<std::size_t>(tile_rows)));
 }
 
+// Before so many pictures have been averaged, how they differ says little.
+constexpr int kFewestPictures = 8;
+
 int tiles_across(int pixels) { return (pixels + raster::kTileSide - 1) / raster::kTileSide; }
 
 // Sorted triangles kept from picture to picture, so that their memory is touched only once.
@@ -337,7 +340,8 @@ RenderStatistics Renderer::Implementation::draw_mean(const View& from, const Ren
     if (progress.is_cancelled()) break;
     pictures.add();
     render::add_costs(statistics, one);
-    if (pictures.noise() <= settings.noise) break;
+    if (settings.noise > 0 && pictures.count() >= kFewestPictures && pictures.noise() <= settings.noise)
+      break;
   }
   if (progress.is_cancelled()) return statistics;
   statistics.light_samples = pictures.count();

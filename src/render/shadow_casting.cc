@@ -1,5 +1,7 @@
 #include "render/shadow_casting.h"
 
+#include <algorithm>
+
 #include "render/silhouette_painter.h"
 #include "shadow/exact_shadow.h"
 #include "shadow/ground_shadow.h"
@@ -23,7 +25,7 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make(const light::Planne
 
 std::unique_ptr<shadow::PaneFinder> ShadowCasting::make_panes(const light::PlannedLight& planned) {
   if (planned.technique == ShadowTechnique::raytraced) {
-    return std::make_unique<shadow::RayTracedPanes>(planned, context_.ray_scene());
+    return std::make_unique<shadow::RayTracedPanes>(planned, context_.frame, context_.ray_scene());
   }
   return std::make_unique<shadow::ExactPanes>(planned, context_.frame,
                                               context_.caster_tree(shadow::CasterTree::Casters::blended),
@@ -70,18 +72,17 @@ DepthMaps ShadowCasting::find_maps(const light::PlannedLight& planned, std::size
   return found.maps;
 }
 
-const frame::TriangleNeighbours* ShadowCasting::find_neighbours(const light::PlannedLight& planned) {
+const frame::TriangleNeighbours* ShadowCasting::find_neighbours(const light::PlannedLight& planned) const {
   return shadow::filter_of(planned.settings) == ShadowFilter::refined ? context_.neighbours() : nullptr;
 }
 
 bool ShadowCasting::complete(const DepthMaps& maps) {
   ProgressReport& progress = context_.progress;
   const auto asks_to_stop = [&progress] { return progress.asks_to_stop(); };
-  for (const auto& map : maps) {
+  return std::ranges::all_of(maps, [&](const auto& map) {
     if (!map->is_complete()) draw_tiles(*map, context_.pool, context_.statistics.map_stages, asks_to_stop);
-    if (!map->is_complete()) return false;
-  }
-  return true;
+    return map->is_complete();
+  });
 }
 
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::PlannedLight& planned,

@@ -58,7 +58,7 @@ class ShadowCasting {
   [[nodiscard]] DepthMaps find_maps(const light::PlannedLight& planned, std::size_t index,
                                     bool keeps_triangles);
   // Where the filter asks for them, and null elsewhere.
-  [[nodiscard]] const frame::TriangleNeighbours* find_neighbours(const light::PlannedLight& planned);
+  [[nodiscard]] const frame::TriangleNeighbours* find_neighbours(const light::PlannedLight& planned) const;
   // All tiles at once. False: the caller asks to stop, and there is nothing to be made of the maps.
   [[nodiscard]] bool complete(const DepthMaps& maps);
   void report_memory(const light::PlannedLight& planned, const DepthMaps& maps, std::size_t more_bytes);

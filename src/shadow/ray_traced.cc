@@ -39,6 +39,14 @@ Way way_to_light(const frame::PlacedLight& placed, const glm::dvec3& position_ws
   return {glm::vec3(to_light / distance), static_cast<float>(distance * (1 - near_share))};
 }
 
+CornersOfTriangle corners_of(const frame::Frame& frame, TriangleId id) {
+  const auto corner = [&](unsigned k) {
+    const std::size_t v = frame.clusters[cluster_of(id)].first_vertex + (frame.corners[id] >> (8 * k) & 255U);
+    return glm::vec3(frame.x_ws[v], frame.y_ws[v], frame.z_ws[v]);
+  };
+  return {corner(0), corner(1), corner(2)};
+}
+
 // Calls `use(i)` for every sample named by `wanted`.
 template <class Use>
 void for_each(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted, Use use) {
@@ -78,7 +86,10 @@ void RayTracedPanes::find(const SurfaceSamples& samples, std::span<const std::ui
     panes.clear();
     rays_.scene().find_panes(ray.origin_ws, ray.direction_ws, ray.near, ray.far, ray.own, panes);
     for (const trace::RayScene::Pane& pane : panes) {
-      crossings.push_back({static_cast<std::uint32_t>(i), pane.id, pane.b, pane.c});
+      const Crossing crossing =
+          find_crossing(light_, ray.origin_ws, ray.near, corners_of(frame_, pane.id), OnEdge::of_one);
+      if (crossing.blocks)
+        crossings.push_back({static_cast<std::uint32_t>(i), pane.id, crossing.b, crossing.c});
     }
   });
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "light/light_plan.h"
+#include "shadow/exact_crossing.h"
 #include "shadow/panes.h"
 #include "shadow/shadow_technique.h"
 #include "trace/ray_scene.h"
@@ -41,16 +42,20 @@ class RayTracedShadow final : public ShadowTechnique {
   RaysToLight rays_;
 };
 
-/// The panes in the way, by rays.
+/// The panes in the way, by rays. Of two triangles that share the edge through which a ray passes Embree gives both: which of
+/// them counts is decided as for exact shadows.
 class RayTracedPanes final : public PaneFinder {
  public:
-  RayTracedPanes(const light::PlannedLight& planned, std::shared_ptr<const trace::RayScene> scene)
-      : rays_(planned, std::move(scene)) {}
+  RayTracedPanes(const light::PlannedLight& planned, const frame::Frame& frame,
+                 std::shared_ptr<const trace::RayScene> scene)
+      : rays_(planned, std::move(scene)), frame_(frame), light_(*planned.placed) {}
   void find(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
             std::vector<PaneCrossing>& crossings) const override;
 
  private:
   RaysToLight rays_;
+  const frame::Frame& frame_;
+  LightRays light_;
 };
 
 }  // namespace laterna::shadow

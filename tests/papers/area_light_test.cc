@@ -145,9 +145,35 @@ TEST(AreaLight, NoiseIsReportedAndStopsTheWork) {
     EXPECT_LT(s.noise, 0.6 * last) << points;
     last = s.noise;
   }
+  draw(9, 0, s);
+  EXPECT_EQ(s.light_samples, 9) << "an odd number is an estimate too";
+  EXPECT_GT(s.noise, 0);
+  EXPECT_LT(s.noise, 1);
   draw(512, last * 1.01, s);
   EXPECT_LE(s.light_samples, 256);
   EXPECT_LE(s.noise, last * 1.01);
+}
+
+// Unless a noise is asked for, all points are drawn, also where the picture is the same from all of them, or black.
+TEST(AreaLight, AllPointsAreDrawnWhereNoNoiseIsAskedFor) {
+  for (const double intensity : {1.0, 0.0}) {
+    Scene scene;
+    add_object(scene, "floor", floor(2));
+    Light sun;
+    sun.name = "sun";
+    sun.type = LightType::directional;
+    sun.intensity = intensity;
+    sun.source.angular_diameter = Angle::degrees(0.53);
+    add_light(scene, sun, {0, 5, 0}, {0, 0, 0}, {0, 0, -1});
+    RenderSettings settings = test_settings(16, 16);
+    settings.shading = ShadingModel::papers;
+    settings.light_samples = 16;
+    RenderStatistics statistics;
+    ASSERT_TRUE(make_renderer(std::move(scene))
+                    .render(look({0, 3, 0}, {0, 0, 0}, 30, 1, {0, 0, -1}), settings, {}, &statistics));
+    EXPECT_EQ(statistics.light_samples, 16);
+    EXPECT_EQ(statistics.noise, 0);
+  }
 }
 
 // Beauty is the sum of the mean layers, and depends neither on the threads nor on which layers are asked for.
