@@ -7,6 +7,7 @@
 
 #include "frame_costs.h"
 #include "outcome.h"
+#include "silhouette_culling.h"
 #include "subject.h"
 #include "technique_names.h"
 #include "technique_report.h"
@@ -141,10 +142,15 @@ int run_bench(const Options& options) {
   }
   const Result<FrameCosts> costs = draw_series(*subject, options.series, options.picture);
   if (!costs) return report(costs.error());
+  const Result<std::optional<CullingComparison>> culling = compare_culling(*subject, options.series, *costs);
+  if (!culling) return report(culling.error());
   if (options.json) {
-    fmt::print("{}\n", results_json(*costs, *subject).dump(2));
+    Json json = results_json(*costs, *subject);
+    if (*culling) json["silhouettes"] = json_of(**culling);
+    fmt::print("{}\n", json.dump(2));
   } else {
     print_table(*costs, *subject);
+    if (*culling) print_table(**culling);
   }
   return kOk;
 }
@@ -155,7 +161,10 @@ void declare_bench(CLI::App& app, Run& run) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("bench", "milliseconds per stage, median of several frames");
   options->subject.declare(*command);
-  command->add_option("--shadows", options->shadows, "technique for lights that name none")
+  command
+      ->add_option(
+          "--shadows", options->shadows,
+          "technique for lights that name none; with silhouettes, what culling saves is measured too")
       ->check(CLI::IsMember(technique_names()))
       ->capture_default_str();
   command->add_option("--frames", options->series.frames, "frames that count")->capture_default_str();

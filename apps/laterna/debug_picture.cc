@@ -15,9 +15,10 @@ struct NamedKind {
   const char* name;
   DebugKind kind;
 };
-constexpr std::array<NamedKind, 3> kKindsOfLights = {{{"project-depth", DebugKind::project_depth},
+constexpr std::array<NamedKind, 4> kKindsOfLights = {{{"project-depth", DebugKind::project_depth},
                                                       {"cascades", DebugKind::cascades},
-                                                      {"texel-density", DebugKind::texel_density}}};
+                                                      {"texel-density", DebugKind::texel_density},
+                                                      {"pairs", DebugKind::pairs}}};
 
 Result<ExplainedPicture> draw_depth(const Renderer& renderer, const View& camera,
                                     const RenderSettings& settings, RenderStatistics& statistics) {
@@ -46,6 +47,8 @@ Result<ExplainedPicture> draw_for_light(const Renderer& renderer, const View& ca
       return cascade_picture(renderer, camera, settings, choice.light);
     case DebugKind::texel_density:
       return texel_density_picture(renderer, camera, settings, choice.light);
+    case DebugKind::pairs:
+      return shadow_pairs_picture(renderer, camera, settings, choice.light);
     default:
       return draw_projected_depth(renderer, camera, settings, choice.light);
   }
@@ -57,9 +60,28 @@ Result<bool> applies(const Renderer& renderer, const View& camera, const RenderS
   const ShadowTechnique technique = light.shadow.technique.value_or(settings.shadows);
   if (kind == DebugKind::project_depth) return true;
   if (kind == DebugKind::cascades) return technique == ShadowTechnique::cascades;
+  if (kind == DebugKind::pairs) return technique == ShadowTechnique::silhouette;
   return renderer.shadow_map_views(light.name, camera, settings).map([](const auto& maps) {
     return !maps.empty();
   });
+}
+
+// Said where no light has what is to be shown.
+const char* describe_lack(DebugKind kind) {
+  switch (kind) {
+    case DebugKind::cascades:
+      return "--debug cascades: no light has cascades: give a directional light \"technique\": \"cascades\" "
+             "in a "
+             "rig, or all lights with --shadows cascades";
+    case DebugKind::texel_density:
+      return "--debug texel-density: no light has its shadows by shadow maps";
+    case DebugKind::pairs:
+      return "--debug pairs: no light has projected silhouettes: give one \"technique\": \"silhouette\" in a "
+             "rig, "
+             "or all lights with --shadows silhouette";
+    default:
+      return "--debug project-depth: the scene has no light";
+  }
 }
 
 Result<std::string> find_first_light(const Renderer& renderer, const View& camera,
@@ -73,13 +95,7 @@ Result<std::string> find_first_light(const Renderer& renderer, const View& camer
     if (!found) return tl::unexpected(found.error());
     if (*found) return light.name;
   }
-  const char* what = kind == DebugKind::cascades
-                         ? "--debug cascades: no light has cascades: give a directional light \"technique\": "
-                           "\"cascades\" in a rig, or all lights with --shadows cascades"
-                     : kind == DebugKind::texel_density
-                         ? "--debug texel-density: no light has its shadows by shadow maps"
-                         : "--debug project-depth: the scene has no light";
-  return tl::unexpected(bad_option(what));
+  return tl::unexpected(bad_option(describe_lack(kind)));
 }
 
 }  // namespace
@@ -87,7 +103,9 @@ Result<std::string> find_first_light(const Renderer& renderer, const View& camer
 const char* describe_debug_choices() {
   return "depth: grey ramp; project-depth: a light's depth map thrown on the scene; cascades: which one "
          "answers, by "
-         "colour; texel-density: shadow texels per pixel, by colour; the last three take :LIGHT";
+         "colour; texel-density: shadow texels per pixel, by colour; pairs: which objects silhouettes may "
+         "shade, "
+         "striped with the colours of those that shade them; the last four take :LIGHT";
 }
 
 Result<DebugChoice> parse_debug_choice(const std::string& text) {
@@ -100,7 +118,7 @@ Result<DebugChoice> parse_debug_choice(const std::string& text) {
     if (colon + 1 < text.size()) return DebugChoice{known.kind, text.substr(colon + 1)};
   }
   return tl::unexpected(bad_option(
-      fmt::format("--debug: expected depth, project-depth, cascades or texel-density, the last three "
+      fmt::format("--debug: expected depth, project-depth, cascades, texel-density or pairs, the last four "
                   "with or without :LIGHT, got \"{}\"",
                   text)));
 }

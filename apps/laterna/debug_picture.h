@@ -8,7 +8,7 @@
 
 namespace laterna::app {
 
-enum class DebugKind : std::uint8_t { depth, project_depth, cascades, texel_density };
+enum class DebugKind : std::uint8_t { depth, project_depth, cascades, texel_density, pairs };
 
 struct DebugChoice {
   DebugKind kind = DebugKind::depth;
@@ -18,7 +18,7 @@ struct DebugChoice {
 /// For --help.
 const char* describe_debug_choices();
 
-/// From "depth", or "project-depth", "cascades" or "texel-density", each with or without ":LIGHT".
+/// From "depth", or "project-depth", "cascades", "texel-density" or "pairs", each with or without ":LIGHT".
 Result<DebugChoice> parse_debug_choice(const std::string& text);
 
 /// The picture, and its legend. `statistics`: of drawing the depth layer, where that is shown.

@@ -55,4 +55,11 @@ Result<ExplainedPicture> cascade_picture(const Renderer& renderer, const View& c
 Result<ExplainedPicture> texel_density_picture(const Renderer& renderer, const View& camera,
                                                const RenderSettings& settings, const std::string& light);
 
+/// Which objects a light with projected silhouettes lets shade which (Chen and Tung, section 3; rows 38 to 40 and 47).
+/// Each object that is in a pair has a colour of its own; one that others may shade is striped with their colours; what
+/// is in no pair is grey. The legend lists the pairs.
+/// Error: no such light, its technique is another one, or there are fewer than two objects that cast or receive.
+Result<ExplainedPicture> shadow_pairs_picture(const Renderer& renderer, const View& camera,
+                                              const RenderSettings& settings, const std::string& light);
+
 }  // namespace laterna

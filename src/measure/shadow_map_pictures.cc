@@ -12,6 +12,7 @@
 #include "base/refuse.h"
 #include "laterna/measure.h"
 #include "light/cascades.h"
+#include "measure/painted_surfaces.h"
 
 namespace laterna {
 namespace {
@@ -59,40 +60,6 @@ Result<LightMaps> find_maps(const Renderer& renderer, const View& camera, const 
   maps.are_cascades = shadow.technique.value_or(settings.shadows) == ShadowTechnique::cascades;
   maps.kernel = shadow.kernel;
   return maps;
-}
-
-// What the camera sees, and a colour for each pixel of it, shaded as if a lamp stood at the camera.
-template <class FindColor>
-Result<LayeredImage> paint_surfaces(const Renderer& renderer, const View& camera,
-                                    const RenderSettings& settings, FindColor find_color) {
-  RenderSettings wanted = settings;
-  wanted.layers = {Layer::position, Layer::normal, Layer::object};
-  wanted.shadows = ShadowTechnique::none;
-  wanted.samples = 1;
-  Result<LayeredImage> drawn = renderer.render(camera, wanted);
-  if (!drawn) return drawn;
-  const auto vector_at = [&](const char* name, std::size_t i) {
-    const std::string base = name;
-    return glm::dvec3(drawn->find(base + ".X")->values[i], drawn->find(base + ".Y")->values[i],
-                      drawn->find(base + ".Z")->values[i]);
-  };
-  const std::vector<float>& object = drawn->find("id.object")->values;
-  LayeredImage picture;
-  picture.width = drawn->width;
-  picture.height = drawn->height;
-  for (const char* name : {"R", "G", "B"}) picture.channels.push_back({name, drawn->find(name)->values});
-  for (std::size_t i = 0; i < object.size(); ++i) {
-    if (object[i] < 0) continue;
-    const glm::dvec3 point_ws = vector_at("P", i);
-    const glm::dvec3 gaze = camera.projection.is_orthographic
-                                ? camera.pose.forward_ws()
-                                : glm::normalize(point_ws - camera.pose.position_ws);
-    const double shade = 0.3 + 0.7 * std::abs(glm::dot(gaze, vector_at("N", i)));
-    const glm::dvec3 color = find_color(point_ws) * shade;
-    for (int c = 0; c < 3; ++c)
-      picture.channels[static_cast<std::size_t>(c)].values[i] = static_cast<float>(color[c]);
-  }
-  return picture;
 }
 
 struct NamedColor {
@@ -164,12 +131,13 @@ Result<ExplainedPicture> cascade_picture(const Renderer& renderer, const View& c
   if (!maps) return tl::unexpected(maps.error());
   if (!maps->are_cascades)
     return refuse("light \"" + light + "\" has no cascades: its shadow technique is another one");
-  Result<LayeredImage> picture = paint_surfaces(renderer, camera, settings, [&](const glm::dvec3& point_ws) {
-    glm::dvec3 color = kNoMap.color;
-    for (std::size_t i = maps->views.size(); i-- > 0;)
-      color = glm::mix(color, kCascadeColors[i].color, maps->weight_of(i, point_ws));
-    return color;
-  });
+  Result<LayeredImage> picture =
+      measure::paint_surfaces(renderer, camera, settings, [&](const measure::SeenSurface& seen) {
+        glm::dvec3 color = kNoMap.color;
+        for (std::size_t i = maps->views.size(); i-- > 0;)
+          color = glm::mix(color, kCascadeColors[i].color, maps->weight_of(i, seen.point_ws));
+        return color;
+      });
   if (!picture) return tl::unexpected(std::move(picture.error()));
   ExplainedPicture explained = {std::move(*picture), {}};
   for (std::size_t i = 0; i < maps->views.size(); ++i) {
@@ -190,12 +158,13 @@ Result<ExplainedPicture> texel_density_picture(const Renderer& renderer, const V
   const glm::dmat4 image_from_world = camera.image_from_world();
   const glm::dvec2 pixels(settings.width, settings.height);
   std::vector<double> per_metre;
-  Result<LayeredImage> picture = paint_surfaces(renderer, camera, settings, [&](const glm::dvec3& point_ws) {
-    const std::optional<double> texels = texels_per_metre(*maps, point_ws);
-    if (!texels) return kNoMap.color;
-    per_metre.push_back(*texels);
-    return density_color(*texels / steps_per_metre(image_from_world, pixels, point_ws));
-  });
+  Result<LayeredImage> picture =
+      measure::paint_surfaces(renderer, camera, settings, [&](const measure::SeenSurface& seen) {
+        const std::optional<double> texels = texels_per_metre(*maps, seen.point_ws);
+        if (!texels) return kNoMap.color;
+        per_metre.push_back(*texels);
+        return density_color(*texels / steps_per_metre(image_from_world, pixels, seen.point_ws));
+      });
   if (!picture) return tl::unexpected(std::move(picture.error()));
   ExplainedPicture explained = {std::move(*picture), {}};
   for (std::size_t i = 0; i < kDensityColors.size(); ++i) {

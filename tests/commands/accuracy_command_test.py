@@ -135,6 +135,24 @@ class Bench(unittest.TestCase):
         self.assertIn("raytraced", report["advice"])
         self.assertNotIn("none", report["advice"])
 
+    def test_silhouettes_are_counted_with_and_without_culling(self):
+        """Row 47."""
+        done = run("bench", *STAGE, *QUICK, "--warm-up", "0", "--shadows", "silhouette", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        both = json.loads(done.stdout)["silhouettes"]
+        for culled, unculled in zip(both["culled"]["lights"], both["unculled"]["lights"], strict=True):
+            self.assertEqual(culled["light"], unculled["light"])
+            self.assertEqual(culled["objects"], unculled["objects"])
+            self.assertLess(culled["pairs"], unculled["pairs"])
+            self.assertLessEqual(culled["silhouettes_drawn"], culled["silhouettes"])
+            self.assertLessEqual(culled["silhouettes"], unculled["silhouettes"])
+            self.assertEqual(unculled["silhouettes_drawn"], unculled["silhouettes"])
+        self.assertGreater(both["unculled"]["frame_ms"], 0)
+        table = run("bench", *STAGE, *QUICK, "--warm-up", "0", "--shadows", "silhouette").stdout
+        self.assertRegex(table, r"\nculled +\d+ +\d+ +\d+ +\d+   sun\n")
+        self.assertRegex(table, r"\nunculled +\d+ +\d+ +\d+ +\d+   sun\n")
+        self.assertNotIn("unculled", run("bench", *STAGE, *QUICK, "--warm-up", "0").stdout)
+
     def test_projecting_stands_beside_texturing(self):
         done = run("bench", *STAGE, *QUICK, "--warm-up", "0", "--techniques", "none", "--json")
         report = json.loads(done.stdout)

@@ -19,6 +19,15 @@ std::string_view name_of(ShadowTechnique technique) {
       ->name;
 }
 
+// Cascades are a sun's.
+bool serves(ShadowTechnique technique, LightType type) {
+  return technique != ShadowTechnique::cascades || type == LightType::directional;
+}
+
+LightType single_light(ShadowTechnique technique) {
+  return serves(technique, LightType::point) ? LightType::point : LightType::directional;
+}
+
 class StainedGlass : public testing::TestWithParam<ShadowTechnique> {};
 
 int add_pane(Scene& scene, float z, glm::vec4 color) {
@@ -27,6 +36,17 @@ int add_pane(Scene& scene, float z, glm::vec4 color) {
   scene.materials.back().base_color = color;
   scene.materials.back().alpha_mode = AlphaMode::blend;
   return node;
+}
+
+// Soft shadows need a light with a size, and ground shadows a plane to fall on.
+void suit(Light& light, ShadowTechnique technique) {
+  if (technique == ShadowTechnique::ground) light.shadow.planes = {{{0, 0, 1}, -4}};
+  if (technique != ShadowTechnique::pcss) return;
+  if (light.type == LightType::directional) {
+    light.source.angular_diameter = Angle::degrees(0.5);
+  } else {
+    light.source.radius = 0.02;
+  }
 }
 
 // A slide of four colours on a wall 4 m away, with panes between.
@@ -41,6 +61,7 @@ LayeredImage slide_through(std::span<const glm::vec4> panes, ShadowTechnique tec
   Light light = type == LightType::projector ? projector("light", 0.5, 0.5) : Light();
   light.name = "light";
   light.type = type;
+  suit(light, technique);
   if (type == LightType::projector) {
     light.slide = add_picture(scene, 2, 2, [](int x, int y) {
       return x == 0 ? (y == 0 ? glm::u8vec3(255, 128, 64) : glm::u8vec3(90, 200, 255))
@@ -63,6 +84,7 @@ TEST_P(StainedGlass, ThreePanesGiveTheirProductPerChannel) {
   const glm::vec4 panes[] = {kRed, kGreen, kBlue};
   const char* channels[] = {"light.light.R", "light.light.G", "light.light.B"};
   for (const LightType type : {LightType::projector, LightType::point, LightType::directional}) {
+    if (!serves(GetParam(), type)) continue;
     const LayeredImage bare = slide_through({}, GetParam(), type);
     const LayeredImage tinted = slide_through(panes, GetParam(), type);
     for (int k = 0; k < 3; ++k) {
@@ -81,7 +103,7 @@ TEST_P(StainedGlass, ThreePanesGiveTheirProductPerChannel) {
 // Every place has each pane once: neither twice nor not at all along the diagonal of the square, nor anywhere else.
 TEST_P(StainedGlass, ADiagonalOfASquareDoesNotShow) {
   const glm::vec4 panes[] = {kGreen};
-  const LayeredImage image = slide_through(panes, GetParam(), LightType::point);
+  const LayeredImage image = slide_through(panes, GetParam(), single_light(GetParam()));
   for (const float visibility : values_of(image, "visibility.light")) {
     ASSERT_NEAR(visibility,
                 (transmittance(kGreen, 0) + transmittance(kGreen, 1) + transmittance(kGreen, 2)) / 3, 1e-5);
@@ -91,8 +113,9 @@ TEST_P(StainedGlass, ADiagonalOfASquareDoesNotShow) {
 // What is drawn opaque casts a full shadow, and what is clear none.
 TEST_P(StainedGlass, AlphaOneBlocksAndAlphaNoughtDoesNot) {
   const glm::vec4 opaque[] = {{1, 1, 1, 1}}, clear[] = {{0, 0, 0, 0}};
-  EXPECT_EQ(at(slide_through(opaque, GetParam(), LightType::point), "visibility.light", 20, 30), 0);
-  EXPECT_EQ(at(slide_through(clear, GetParam(), LightType::point), "visibility.light", 20, 30), 1);
+  const LightType type = single_light(GetParam());
+  EXPECT_EQ(at(slide_through(opaque, GetParam(), type), "visibility.light", 20, 30), 0);
+  EXPECT_EQ(at(slide_through(clear, GetParam(), type), "visibility.light", 20, 30), 1);
 }
 
 // A painted pane: its left half red glass, its right half a hole in the paint.
@@ -110,6 +133,8 @@ TEST_P(StainedGlass, ThePanesTextureIsThrownOnTheWall) {
   scene.pictures.emplace_back().pixels = paint;
   Light lamp;
   lamp.name = "light";
+  lamp.type = single_light(GetParam());
+  suit(lamp, GetParam());
   add_light(scene, lamp, {0, 0, 0}, {0, 0, -1});
   RenderSettings settings = papers_settings(64, 64);
   settings.shadows = GetParam();
@@ -124,7 +149,10 @@ TEST_P(StainedGlass, ThePanesTextureIsThrownOnTheWall) {
 
 INSTANTIATE_TEST_SUITE_P(Techniques, StainedGlass,
                          testing::Values(ShadowTechnique::map, ShadowTechnique::exact,
-                                         ShadowTechnique::raytraced),
+                                         ShadowTechnique::raytraced, ShadowTechnique::pcss,
+                                         ShadowTechnique::variance, ShadowTechnique::cascades,
+                                         ShadowTechnique::volume, ShadowTechnique::ground,
+                                         ShadowTechnique::silhouette),
                          [](const auto& instance) { return std::string(name_of(instance.param)); });
 
 }  // namespace
