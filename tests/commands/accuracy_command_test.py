@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds `laterna accuracy` and `laterna bench --techniques` to what they promise to callers: JSON, exit codes, messages.
+"""Holds `laterna accuracy`, `laterna bench` and `laterna render --debug pairs` to what they promise: JSON, exit codes, messages.
 
     accuracy_command_test.py LATERNA SCENES
 """
@@ -174,6 +174,28 @@ class Bench(unittest.TestCase):
             done = run("bench", *STAGE, "--techniques", "all", *other)
             self.assertEqual(done.returncode, 2)
             self.assertIn("--techniques excludes --cached, --pose and --png", done.stderr)
+
+
+class DebugPairs(unittest.TestCase):
+    def draw(self, *arguments):
+        return run("render", *STAGE, "-o", str(Path(FOLDER.name) / "pairs.png"), *arguments)
+
+    def test_the_pairs_of_the_first_light_or_of_the_one_that_is_named_are_listed(self):
+        for choice in ["pairs", "pairs:sun"]:
+            done = self.draw("--shadows", "silhouette", "--debug", choice)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stderr, r'laterna: \d+ pairs of 8 objects; ')
+            self.assertRegex(done.stderr, r'laterna: "ball" \(\w+\) may shade "floor" \(\w+\)')
+
+    def test_what_cannot_be_shown_is_refused(self):
+        for arguments, message in [
+                (["--debug", "pairs"], "--debug pairs: no light has projected silhouettes"),
+                (["--shadows", "silhouette", "--debug", "pairs:moon"], 'the scene has no light "moon"'),
+                (["--debug", "pears"], 'texel-density or pairs, the last four with or without :LIGHT, got "pears"'),
+        ]:
+            done = self.draw(*arguments)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(message, done.stderr)
 
 
 if __name__ == "__main__":
