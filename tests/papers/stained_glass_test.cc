@@ -50,7 +50,8 @@ void suit(Light& light, ShadowTechnique technique) {
 }
 
 // A slide of four colours on a wall 4 m away, with panes between.
-LayeredImage slide_through(std::span<const glm::vec4> panes, ShadowTechnique technique, LightType type) {
+LayeredImage slide_through(std::span<const glm::vec4> panes, ShadowTechnique technique, LightType type,
+                           glm::dvec3 place = {0.05, 0.02, 0}) {
   Scene scene;
   add_object(scene, "wall", wall(2, 2, -4));
   float z = -1;
@@ -68,7 +69,7 @@ LayeredImage slide_through(std::span<const glm::vec4> panes, ShadowTechnique tec
                     : glm::u8vec3(230, 240, 60);
     });
   }
-  add_light(scene, light, {0.05, 0.02, 0}, {0.05, 0.02, -1});
+  add_light(scene, light, place, place + glm::dvec3(0, 0, -1));
   RenderSettings settings = papers_settings(64, 64);
   settings.shadows = technique;
   settings.layers = {Layer::light, Layer::visibility, Layer::lux};
@@ -103,7 +104,8 @@ TEST_P(StainedGlass, ThreePanesGiveTheirProductPerChannel) {
 // Every place has each pane once: neither twice nor not at all along the diagonal of the square, nor anywhere else.
 TEST_P(StainedGlass, ADiagonalOfASquareDoesNotShow) {
   const glm::vec4 panes[] = {kGreen};
-  const LayeredImage image = slide_through(panes, GetParam(), single_light(GetParam()));
+  // Camera and light on the axis: the diagonal's rays pass exactly through the edge that two triangles share.
+  const LayeredImage image = slide_through(panes, GetParam(), single_light(GetParam()), {0, 0, 0});
   for (const float visibility : values_of(image, "visibility.light")) {
     ASSERT_NEAR(visibility,
                 (transmittance(kGreen, 0) + transmittance(kGreen, 1) + transmittance(kGreen, 2)) / 3, 1e-5);
