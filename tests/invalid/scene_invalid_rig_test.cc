@@ -283,6 +283,11 @@ const RigCase kRigCases[] = {
      "r.json: line 1: lights[0].shadow.warp: only the map of a directional light that is fitted to the scene "
      "can be "
      "warped"},
+    {"ShadowLayoutOfASun",
+     "{\"lights\": [{\"type\": \"directional\", \"position\": [0,1,0], \"target\": [0,0,0], \"shadow\": "
+     "{\"layout\": \"dual_paraboloid\"}}]}",
+     "r.json: line 1: lights[0].shadow.layout: only point lights and spots wider than 150 degrees have maps "
+     "of all directions: others have one map"},
     {"ShadowFilterMisspelt",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"filter\": "
      "\"percentage-closer\", "
