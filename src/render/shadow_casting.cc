@@ -102,7 +102,7 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_paraboloids(const l
   Stopwatch watch;
   watch.start();
   auto technique = std::make_unique<shadow::ParaboloidShadow>(
-      planned, context_.frame, context_.settings.samples, context_.pool,
+      planned, context_.frame, find_neighbours(planned), context_.settings.samples, context_.pool,
       [&progress] { return progress.asks_to_stop(); });
   context_.statistics.map_stages[Stage::raster] += watch.lap_ms();
   context_.statistics.maps_drawn += 2;

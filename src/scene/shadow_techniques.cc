@@ -66,10 +66,7 @@ std::string find_fault(ShadowLayout layout, const Light& light) {
   if (!shines_all_round(light))
     return "only point lights and spots wider than 150 degrees have maps of all directions: others have one "
            "map";
-  const ShadowSettings& settings = light.shadow;
-  if (settings.technique.value_or(ShadowTechnique::map) != ShadowTechnique::map)
-    return "only the technique \"map\" has a layout";
-  if (settings.filter == ShadowFilter::averaged_depths)
+  if (light.shadow.filter == ShadowFilter::averaged_depths)
     return "\"averaged_depths\" means depths along one axis, and these maps have none: use \"cube\"";
   return "";
 }

@@ -18,6 +18,8 @@ constexpr double kNearSlopes = 0.5;
 constexpr double kBeyondTexels = 0.25;
 // Triangles that the light sees smaller than this many texels may have neighbours that no texel saw.
 constexpr double kSmallTexels = 2;
+// From a suspect that the ray misses, so many steps are made at most toward it over the surface.
+constexpr int kMostSteps = 8;
 // What comparisons in single precision may be off by.
 constexpr double kRounding = 1e-6;
 
@@ -61,17 +63,27 @@ struct ParaboloidShadow::Tap {
   TriangleId id;
 };
 
-// What the four texels saw in the receiver's way.
+// Triangles that may stand in the receiver's way: what the four texels saw, and what a walk from there passed.
 struct ParaboloidShadow::Suspects {
-  std::array<TriangleId, 4> id{};
+  std::array<TriangleId, 4 * (1 + kMostSteps)> id{};
   std::size_t count = 0;
-  double small_weight = 0;  // of texels that saw, far in front, what is too small to be sure of
+  std::array<double, 4> far_weight{};  // of texels that saw it far in front; what the texels saw comes first
+
+  // Its place among them.
+  std::size_t add(TriangleId added) {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (id[k] == added) return k;
+    }
+    id[count] = added;
+    return count++;
+  }
 };
 
 ParaboloidShadow::ParaboloidShadow(const light::PlannedLight& planned, const frame::Frame& frame,
-                                   int samples_per_pixel, const TaskPool& pool,
-                                   const std::function<bool()>& asks_to_stop)
+                                   const frame::TriangleNeighbours* neighbours, int samples_per_pixel,
+                                   const TaskPool& pool, const std::function<bool()>& asks_to_stop)
     : frame_(frame),
+      neighbours_(neighbours),
       light_(*planned.placed),
       map_(frame,
            ParaboloidPair(planned.placed->pose, planned.settings.resolution, border_of(planned.settings)),
@@ -80,7 +92,11 @@ ParaboloidShadow::ParaboloidShadow(const light::PlannedLight& planned, const fra
       bias_(bias_of(planned.settings)),
       kernel_(planned.settings.kernel),
       positions_(samples_per_pixel > 1 ? 1 : kPlaceCount),
-      soft_edge_(planned.settings.soft_edge) {}
+      soft_edge_(planned.settings.soft_edge) {
+  // Where only some faces cast shadows, the map knows which; their neighbours may be of the other kind.
+  const bool is_known = neighbours != nullptr && !neighbours->sources.empty();
+  if (!is_known || planned.settings.caster_faces != CasterFaces::both) neighbours_ = nullptr;
+}
 
 double ParaboloidShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                                       Arrival& arrival) const {
@@ -137,7 +153,8 @@ double ParaboloidShadow::compare(const Receiver& r, const Tap& tap) const {
   const double bias = r.rounding + static_cast<double>(bias_.texels) * r.footprint +
                       static_cast<double>(bias_.slope) * r.change +
                       static_cast<double>(bias_.metres) * r.reverse * r.reverse;
-  if (tap.stored <= tap.on_plane + bias) return 1;
+  // Beyond its horizon the receiver's plane is nowhere.
+  if (tap.id == kNoTriangle || tap.stored <= tap.on_plane + bias) return 1;
   if (soft_edge_ <= 0) return 0;
   const double before = tap.on_plane > 0 ? 1 / tap.on_plane - 1 / tap.stored : soft_edge_;
   return 1 - smooth_step(std::clamp(before / soft_edge_, 0.0, 1.0));
@@ -165,48 +182,112 @@ double ParaboloidShadow::filtered(const Receiver& r) const {
 
 // ---------------------------------------------------------------------------------------------- refined
 
-// Where the four texels agree by a margin, that is the answer; else the triangles that they saw are tested, at the pixel's
-// centre and about it. The centre has the deciding vote: α ≥ 1/2 is the hard shadow there.
-double ParaboloidShadow::refined(const SurfaceSamples& s, std::size_t i) const {
-  const Receiver r = find_receiver(s, i);
+// False: the four texels agree by a margin, and `alpha` is the answer.
+bool ParaboloidShadow::find_suspects(const Receiver& r, Suspects& suspects, double& alpha) const {
   const double near = r.rounding + kNearTexels * r.footprint + kNearSlopes * r.change;
   const double beyond = r.rounding + kBeyondTexels * r.footprint;
   const double left = std::floor(r.texel.x - 0.5), top = std::floor(r.texel.y - 0.5);
   const double right_weight = r.texel.x - 0.5 - left, low_weight = r.texel.y - 0.5 - top;
-  Suspects suspects;
   int far_count = 0;
   for (int k = 0; k < 4; ++k) {
     const int x = k & 1, y = k >> 1;
     const Tap seen = tap(r, static_cast<int>(left) + x, static_cast<int>(top) + y);
+    if (seen.id == kNoTriangle || seen.id == r.id) continue;
     // On a slope the plane may pass the texel's centre nearer to the light than what stands before the sample itself.
     const bool is_before_sample = seen.stored > r.reverse + r.rounding;
     const bool shades_sample = is_before_sample && seen.stored + beyond < seen.on_plane;
-    if (seen.id == kNoTriangle || seen.id == r.id) continue;
     if (seen.stored <= seen.on_plane + r.rounding && !shades_sample) continue;
-    const bool is_far = seen.stored > seen.on_plane + near && seen.stored > r.reverse + near;
-    far_count += is_far ? 1 : 0;
-    const double weight = (x == 0 ? 1 - right_weight : right_weight) * (y == 0 ? 1 - low_weight : low_weight);
-    if (is_far && is_small(seen.id)) suspects.small_weight += weight;
-    const auto known = suspects.id.begin() + static_cast<std::ptrdiff_t>(suspects.count);
-    if (std::find(suspects.id.begin(), known, seen.id) == known) suspects.id[suspects.count++] = seen.id;
+    const std::size_t suspect = suspects.add(seen.id);
+    if (!(seen.stored > seen.on_plane + near && seen.stored > r.reverse + near)) continue;
+    ++far_count;
+    suspects.far_weight[suspect] +=
+        (x == 0 ? 1 - right_weight : right_weight) * (y == 0 ? 1 - low_weight : low_weight);
   }
-  if (suspects.count == 0) return 1;
-  if (far_count == 4) return 0;
+  alpha = suspects.count == 0 ? 1 : 0;
+  return suspects.count > 0 && far_count < 4;
+}
+
+// Triangles in question are tested at the pixel's centre and about it. The centre has the deciding vote: α ≥ 1/2 is the
+// hard shadow there.
+double ParaboloidShadow::refined(const SurfaceSamples& s, std::size_t i) const {
+  Suspects suspects;
+  double alpha = 0;
+  const Receiver receiver = find_receiver(s, i);
+  if (!find_suspects(receiver, suspects, alpha)) return alpha;
   const float nearest = nearest_blocker(s, i);
   const glm::vec3 centre(s.x_ws[i], s.y_ws[i], s.z_ws[i]);
-  const bool is_dark = is_blocked(centre, nearest, suspects);
-  int dark = is_dark ? 1 : 0;
+  bool is_dark = is_blocked(centre, nearest, suspects);
+  double unsure = 0;  // weight of texels that saw, far in front, what is too small to be sure of
+  if (!is_dark) {
+    const glm::dvec3 place = map_.pair().to_eye(glm::dvec3(centre));
+    const std::size_t seen = suspects.count;
+    for (std::size_t k = 0; k < seen; ++k) {
+      const bool is_settled = walk_on(suspects.id[k], receiver.id, place, suspects);
+      if (!is_settled && is_small(suspects.id[k])) unsure += suspects.far_weight[k];
+    }
+    is_dark = suspects.count > seen && is_blocked(centre, nearest, suspects);
+  }
+  double lit = is_dark ? 0 : 1 - unsure;
+  const bool is_lit = lit >= 0.5;
   for (int k = 1; k < positions_; ++k) {
     const glm::dvec3 step = step_on_plane(s, i, kPlaces[k]);
     // Beyond the end of its triangle the plane may run into the next one; that must not darken what is lit.
-    const float beside = is_dark ? 0.0F : static_cast<float>(2 * glm::length(step));
-    dark += is_blocked(glm::vec3(glm::dvec3(centre) + step), nearest + beside, suspects) ? 1 : 0;
+    const float beside = is_lit ? static_cast<float>(2 * glm::length(step)) : 0.0F;
+    const glm::vec3 place(glm::dvec3(centre) + step);
+    lit += is_blocked(place, nearest + beside, suspects) ? 0 : 1 - unsure;
   }
-  const double alpha = 1 - static_cast<double>(dark) / positions_;
-  // Where triangles are smaller than texels, what stands in the way may have been seen by none.
-  if (dark == 0) return 1 - suspects.small_weight;
-  if (positions_ == 1) return alpha;
-  return is_dark ? std::min(alpha, 0.4) : std::max(alpha, 0.6);
+  if (positions_ == 1) return lit;
+  lit /= positions_;
+  return is_lit ? std::max(lit, 0.6) : std::min(lit, 0.4);
+}
+
+// From a triangle that the way from the light to `place` misses, over the surface to where it passes: always across the
+// edge beyond which that is. Adds what it comes by; true where the surface ends or the way is met.
+bool ParaboloidShadow::walk_on(TriangleId start, TriangleId own, const glm::dvec3& place,
+                               Suspects& suspects) const {
+  if (neighbours_ == nullptr) return false;
+  TriangleId id = start, from = start;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const LocalTriangle t(frame_, id, map_.pair());
+    const double sign = t.volume() < 0 ? -1 : 1;
+    const auto weight = [&](std::size_t a, std::size_t b) {
+      return sign * glm::dot(place, glm::cross(t.corner[a], t.corner[b]));
+    };
+    // Of the corners opposite to the edges.
+    const std::array<double, 3> weights = {weight(0, 1), weight(1, 2), weight(2, 0)};
+    if (!(weights[0] + weights[1] + weights[2] > 0)) return false;
+    const std::array<TriangleId, 3> across = find_across(id);
+    double lowest = 0;
+    TriangleId next = id;
+    bool is_open = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      is_open = is_open || (weights[k] < 0 && across[k] == id);
+      // Where the surface folds back, the way on is the way back.
+      if (across[k] == id || across[k] == from || weights[k] >= lowest) continue;
+      lowest = weights[k];
+      next = across[k];
+    }
+    if (next == id) return !is_open;
+    if (next == own) return true;
+    from = id;
+    id = next;
+    suspects.add(id);
+  }
+  return false;
+}
+
+// Beyond the edge from each corner to the next; the triangle itself where there is nothing.
+std::array<TriangleId, 3> ParaboloidShadow::find_across(TriangleId id) const {
+  const std::int32_t source = neighbours_->sources[cluster_of(id)];
+  const std::size_t in_mesh =
+      (static_cast<std::size_t>(source >> 1) << kTriangleBits) + (id & (kTrianglesPerCluster - 1));
+  const std::int32_t* steps = neighbours_->meshes->steps.data() + 3 * in_mesh;
+  const auto across = [&](std::size_t k) {
+    return static_cast<TriangleId>(static_cast<std::int32_t>(id) + steps[k]);
+  };
+  // A mirrored instance has its second and third corners swapped.
+  const bool is_mirrored = (source & 1) != 0;
+  return {across(is_mirrored ? 2 : 0), across(1), across(is_mirrored ? 0 : 2)};
 }
 
 bool ParaboloidShadow::is_blocked(const glm::vec3& position_ws, float nearest,

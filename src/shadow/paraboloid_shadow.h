@@ -2,6 +2,7 @@
 // sources, 2002.
 #pragma once
 
+#include "frame/triangle_neighbours.h"
 #include "shadow/exact_crossing.h"
 #include "shadow/paraboloid_map.h"
 #include "shadow/shadow_map.h"
@@ -12,9 +13,10 @@ namespace laterna::shadow {
 /// In double precision throughout, and so the same for every instruction set.
 class ParaboloidShadow final : public ShadowTechnique {
  public:
-  /// Draws the maps.
-  ParaboloidShadow(const light::PlannedLight& planned, const frame::Frame& frame, int samples_per_pixel,
-                   const TaskPool& pool, const std::function<bool()>& asks_to_stop);
+  /// Draws the maps. `neighbours`: of the frame, or null; both outlive this.
+  ParaboloidShadow(const light::PlannedLight& planned, const frame::Frame& frame,
+                   const frame::TriangleNeighbours* neighbours, int samples_per_pixel, const TaskPool& pool,
+                   const std::function<bool()>& asks_to_stop);
 
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                       Arrival& arrival) const override;
@@ -30,11 +32,15 @@ class ParaboloidShadow final : public ShadowTechnique {
   [[nodiscard]] Tap tap(const Receiver& receiver, int x, int y) const;
   [[nodiscard]] double compare(const Receiver& receiver, const Tap& tap) const;
   [[nodiscard]] double filtered(const Receiver& receiver) const;
+  bool find_suspects(const Receiver& receiver, Suspects& suspects, double& alpha) const;
   [[nodiscard]] double refined(const SurfaceSamples& samples, std::size_t i) const;
   [[nodiscard]] bool is_blocked(const glm::vec3& position_ws, float nearest, const Suspects& suspects) const;
+  bool walk_on(TriangleId start, TriangleId own, const glm::dvec3& place, Suspects& suspects) const;
+  [[nodiscard]] std::array<TriangleId, 3> find_across(TriangleId id) const;
   [[nodiscard]] bool is_small(TriangleId id) const;
 
   const frame::Frame& frame_;
+  const frame::TriangleNeighbours* neighbours_;  // null: not known
   LightRays light_;
   ParaboloidMap map_;
   ShadowFilter filter_;
