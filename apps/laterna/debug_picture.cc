@@ -71,8 +71,7 @@ const char* describe_lack(DebugKind kind) {
   switch (kind) {
     case DebugKind::cascades:
       return "--debug cascades: no light has cascades: give a directional light \"technique\": \"cascades\" "
-             "in a "
-             "rig, or all lights with --shadows cascades";
+             "in a rig";
     case DebugKind::texel_density:
       return "--debug texel-density: no light has its shadows by shadow maps";
     case DebugKind::pairs:

@@ -164,6 +164,19 @@ nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double
           {"noise", s.noise}};
 }
 
+/// A lamp with a size throws soft shadows, but most techniques see its middle alone.
+void advise_softness(const Scene& scene, ShadowTechnique for_all) {
+  for (const Light& light : scene.lights) {
+    const ShadowTechnique technique = light.shadow.technique.value_or(for_all);
+    const bool is_hard = technique != ShadowTechnique::pcss && technique != ShadowTechnique::none;
+    if (!light.enabled || !light.source.has_size() || !is_hard) continue;
+    fmt::print(stderr,
+               "laterna: note: light \"{}\" has a size, but its shadows are hard: try --shadows pcss, or "
+               "--light-samples 64\n",
+               light.name);
+  }
+}
+
 class RenderCommand {
  public:
   explicit RenderCommand(const RenderOptions& options) : options_(options) {}
@@ -261,7 +274,11 @@ class RenderCommand {
   static Result<LayeredImage> draw_light(const Renderer& renderer, const View& view,
                                          const RenderSettings& settings, RenderStatistics& statistics) {
     Result<LayeredImage> image = renderer.render(view, settings, progress_line("rendering"), &statistics);
-    if (!image || settings.light_samples == 1) return image;
+    if (!image) return image;
+    if (settings.light_samples == 1) {
+      advise_softness(renderer.scene(), settings.shadows);
+      return image;
+    }
     if (statistics.light_samples == 1) {
       fmt::print(stderr, "laterna: note: --light-samples has no effect: no light has a size\n");
     } else {

@@ -165,6 +165,13 @@ std::string find_fault(ShadowTechnique technique, const Light& light);
 std::string find_fault(ShadowDepth depth, const Light& light);
 /// Likewise its map's warp.
 std::string find_fault(ShadowWarp warp, const Light& light);
+/// Likewise its maps' layout.
+std::string find_fault(ShadowLayout layout, const Light& light);
+
+/// Half angle of the widest cone that one map holds, in degrees: beyond, a plane would spend its texels on the rim.
+inline constexpr double kWidestSingleMap = 75;
+/// Whether a shadow map of this light must hold directions to all sides.
+bool shines_all_round(const Light& light);
 
 // ---------------------------------------------------------------------------------------------- the scene
 

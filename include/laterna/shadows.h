@@ -48,6 +48,11 @@ enum class ShadowWarp : std::uint8_t {
   none,                     ///< all of one size, on all that casts shadows, whatever the camera sees of it
   light_space_perspective,  ///< on what the camera sees, finer toward it
 };
+/// What holds the directions of a light that shines all round.
+enum class ShadowLayout : std::uint8_t {
+  cube,             ///< six maps, the faces of a cube
+  dual_paraboloid,  ///< two, each as one paraboloid mirror shows half of the directions
+};
 enum class CasterFaces : std::uint8_t { both, back_only };
 
 /// Largest ShadowSettings::blur.
@@ -81,6 +86,7 @@ struct ShadowSettings {
   CasterFaces caster_faces = CasterFaces::both;
   bool outside_is_lit = true;  ///< beyond the map's sides or far plane
   ShadowDepth depth = ShadowDepth::planar;
+  ShadowLayout layout = ShadowLayout::cube;  ///< technique map, lights that shine all round
   /// Metres that a caster must stand before a surface to darken it wholly; less darkens it by a smooth step (row 87).
   /// Where set, `refined` is read as `bilinear`.
   double soft_edge = 0;

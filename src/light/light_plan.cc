@@ -27,9 +27,6 @@ constexpr double kFarthestNear = 0.01;
 // Light inside a cluster's box: a share of the largest cluster's size, so that toys and planets are treated alike.
 constexpr double kSmallestNear = 1e-5;
 
-// Cones wider than this are drawn on the faces of a cube: one plane would spend its texels on the rim.
-constexpr double kWidestSingleView = 75;  // degrees of half angle
-
 // Faces of cubes see this share of their side more to each side for `pcss`, whose filters are as wide as penumbrae; what
 // lies beyond is not looked for.
 constexpr int kSoftBorder = 8;
@@ -119,9 +116,9 @@ std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& fra
       return {widened({placed.view, settings.resolution, settings.resolution}, border)};
     case LightType::spot: {
       const double half_angle = light.outer_cone.in_degrees();
-      if (half_angle > kWidestSingleView) break;
+      if (shines_all_round(light)) break;
       // A little wider than the cone, for the filter at its rim.
-      const Angle field = Angle::degrees(std::min(2 * half_angle * 1.01 + 0.1, 2 * kWidestSingleView + 2));
+      const Angle field = Angle::degrees(std::min(2 * half_angle * 1.01 + 0.1, 2 * kWidestSingleMap + 2));
       return {{{placed.pose, Projection::perspective(field, 1, near_plane(placed, frame), far_plane(light))},
                settings.resolution,
                settings.resolution}};

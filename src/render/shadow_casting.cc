@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "base/stopwatch.h"
 #include "render/silhouette_painter.h"
 #include "shadow/exact_shadow.h"
 #include "shadow/ground_shadow.h"
+#include "shadow/paraboloid_shadow.h"
 #include "shadow/ray_traced.h"
 #include "shadow/shadow_map.h"
 #include "shadow/shadow_volume.h"
@@ -87,12 +89,26 @@ bool ShadowCasting::complete(const DepthMaps& maps) {
 
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::PlannedLight& planned,
                                                                  std::size_t index) {
+  if (planned.settings.layout == ShadowLayout::dual_paraboloid) return make_paraboloids(planned);
   ProgressReport& progress = context_.progress;
   const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
   report_memory(planned, maps, 0);
   return std::make_unique<shadow::ShadowMap>(
       planned, maps, context_.frame, find_neighbours(planned), context_.camera.homogeneous_ray(),
       context_.settings.samples, context_.instruction_set, [&progress] { return progress.asks_to_stop(); });
+}
+
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_paraboloids(const light::PlannedLight& planned) {
+  ProgressReport& progress = context_.progress;
+  Stopwatch watch;
+  watch.start();
+  auto technique = std::make_unique<shadow::ParaboloidShadow>(
+      planned, context_.frame, find_neighbours(planned), context_.settings.samples, context_.pool,
+      [&progress] { return progress.asks_to_stop(); });
+  context_.statistics.map_stages[Stage::raster] += watch.lap_ms();
+  context_.statistics.maps_drawn += 2;
+  report_memory(planned, 2, technique->memory_bytes());
+  return technique;
 }
 
 // The tree is all lights': the first is said to hold it.

@@ -48,6 +48,7 @@ class ShadowCasting {
   [[nodiscard]] std::unique_ptr<shadow::PaneFinder> make_panes(const light::PlannedLight& planned);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_map(const light::PlannedLight& planned,
                                                                   std::size_t index);
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_paraboloids(const light::PlannedLight& planned);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_exact(const light::PlannedLight& planned);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_volume(const light::PlannedLight& planned);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_soft_map(const light::PlannedLight& planned,

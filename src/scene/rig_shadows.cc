@@ -130,6 +130,16 @@ void read_warp(JsonObject& shadow, Light& light) {
     shadow.error("warp", std::move(fault));
 }
 
+void read_layout(JsonObject& shadow, Light& light) {
+  light.shadow.layout =
+      shadow
+          .choice<ShadowLayout>(
+              "layout", {{"cube", ShadowLayout::cube}, {"dual_paraboloid", ShadowLayout::dual_paraboloid}})
+          .value_or(ShadowLayout::cube);
+  if (std::string fault = find_fault(light.shadow.layout, light); !fault.empty())
+    shadow.error("layout", std::move(fault));
+}
+
 void read_cascades(JsonObject& shadow, ShadowSettings& settings) {
   if (const auto count = shadow.whole("cascades", 1, kMostCascades))
     settings.cascades = static_cast<int>(*count);
@@ -170,6 +180,7 @@ void read_rig_shadow(const JsonDocument& json, JsonObject& object, FaultList& fa
   read_ground(json, shadow, faults, light.shadow);
   read_silhouette(shadow, light.shadow);
   read_warp(shadow, light);
+  read_layout(shadow, light);
   read_cascades(shadow, light.shadow);
   read_darkness(shadow, light.shadow);
   shadow.report_unknown_members("a shadow");

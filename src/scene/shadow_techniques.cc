@@ -34,7 +34,7 @@ std::string find_fault(ShadowTechnique technique, const Light& light) {
     return "\"pcss\" cannot serve a parallel projector with a size: all its light goes one way";
   }
   if (technique == ShadowTechnique::cascades && light.type != LightType::directional)
-    return "cascades share out the parallel light of a directional light: other lights have \"map\"";
+    return "cascades serve directional lights only: give the sun \"technique\": \"cascades\" in a rig";
   for (const TechniqueDescription& known : kTechniques) {
     if (known.technique == technique) return "";
   }
@@ -54,6 +54,21 @@ std::string find_fault(ShadowWarp warp, const Light& light) {
     return "only the map of a directional light that is fitted to the scene can be warped";
   const ShadowTechnique technique = light.shadow.technique.value_or(ShadowTechnique::map);
   return technique == ShadowTechnique::map ? "" : "only the technique \"map\" has a warp";
+}
+
+bool shines_all_round(const Light& light) {
+  return light.type == LightType::point ||
+         (light.type == LightType::spot && light.outer_cone.in_degrees() > kWidestSingleMap);
+}
+
+std::string find_fault(ShadowLayout layout, const Light& light) {
+  if (layout == ShadowLayout::cube) return "";
+  if (!shines_all_round(light))
+    return "only point lights and spots wider than 150 degrees have maps of all directions: others have one "
+           "map";
+  if (light.shadow.filter == ShadowFilter::averaged_depths)
+    return "\"averaged_depths\" means depths along one axis, and these maps have none: use \"cube\"";
+  return "";
 }
 
 }  // namespace laterna

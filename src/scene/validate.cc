@@ -322,6 +322,8 @@ void Validator::check_light(const Light& light, const std::string& place) {
     fault(place + ".shadow.depth", std::move(message));
   if (std::string message = find_fault(light.shadow.warp, light); !message.empty())
     fault(place + ".shadow.warp", std::move(message));
+  if (std::string message = find_fault(light.shadow.layout, light); !message.empty())
+    fault(place + ".shadow.layout", std::move(message));
   if (light.shadow.technique) {
     if (std::string message = find_fault(*light.shadow.technique, light); !message.empty())
       fault(place + ".shadow.technique", std::move(message));
@@ -346,6 +348,7 @@ void Validator::check_source(const Light& light, const std::string& place) {
 void Validator::check_shadow(const ShadowSettings& shadow, const std::string& place) {
   check_enumerator(place + ".filter", shadow.filter, ShadowFilter::averaged_depths);
   check_enumerator(place + ".warp", shadow.warp, ShadowWarp::light_space_perspective);
+  check_enumerator(place + ".layout", shadow.layout, ShadowLayout::dual_paraboloid);
   check_enumerator(place + ".caster_faces", shadow.caster_faces, CasterFaces::back_only);
   if (shadow.resolution < 0 || shadow.resolution > kMaxShadowResolution) {
     fault(place + ".resolution", fmt::format("expected from 1 to {}, or 0 for the default, got {}",

@@ -274,15 +274,19 @@ const RigCase kRigCases[] = {
     {"ShadowCascadesOfALamp",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"technique\": "
      "\"cascades\"}}]}",
-     "r.json: line 1: lights[0].shadow.technique: cascades share out the parallel light of a directional "
-     "light: "
-     "other lights have \"map\""},
+     "r.json: line 1: lights[0].shadow.technique: cascades serve directional lights only: give the sun "
+     "\"technique\": \"cascades\" in a rig"},
     {"ShadowWarpOfALamp",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"warp\": "
      "\"light_space_perspective\"}}]}",
      "r.json: line 1: lights[0].shadow.warp: only the map of a directional light that is fitted to the scene "
      "can be "
      "warped"},
+    {"ShadowLayoutOfASun",
+     "{\"lights\": [{\"type\": \"directional\", \"position\": [0,1,0], \"target\": [0,0,0], \"shadow\": "
+     "{\"layout\": \"dual_paraboloid\"}}]}",
+     "r.json: line 1: lights[0].shadow.layout: only point lights and spots wider than 150 degrees have maps "
+     "of all directions: others have one map"},
     {"ShadowFilterMisspelt",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"filter\": "
      "\"percentage-closer\", "
