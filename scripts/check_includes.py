@@ -30,10 +30,13 @@ ROOMS = {
 PUBLIC_HEADERS = {
     "accuracy.h": "measure",
     "build_info.h": "measure",
+    "false_color.h": "measure",
     "image.h": "image",
     "instruction_set.h": "base",
     "measure.h": "measure",
+    "light_color.h": "image",
     "output.h": "base",
+    "probes.h": "render",
     "render.h": "render",
     "result.h": "base",
     "sampler.h": "image",

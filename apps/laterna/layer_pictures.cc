@@ -29,8 +29,8 @@ bool begins_with(std::string_view name, std::string_view start) {
 std::string layer_of(const std::string& channel) {
   if (channel == "Z") return "depth";
   if (channel.find('.') == std::string::npos) return "beauty";
-  const bool is_whole = begins_with(channel, "visibility.") || channel == "id.object" ||
-                        channel == "pass.1.z" ||
+  const bool is_whole = begins_with(channel, "visibility.") || begins_with(channel, "pixel_density.") ||
+                        channel == "id.object" || channel == "pass.1.z" ||
                         (begins_with(channel, "pass.2.") && channel.ends_with(".alpha"));
   return is_whole ? channel : channel.substr(0, channel.rfind('.'));
 }
@@ -119,7 +119,8 @@ Result<LayeredImage> make_picture(const LayeredImage& image, const std::string& 
   if (name == "P") return within_bounds(image, layer);
   if (name == "id.object") return distinct_colours(image, first.values);
   if (begins_with(name, "uv.") || name == "albedo") return within(image, layer, 0, 1);
-  if (name == "lux") return grey(image, first.values, largest_finite(first.values));
+  if (name == "lux" || name == "luminance" || begins_with(name, "pixel_density."))
+    return grey(image, first.values, largest_finite(first.values));
   if (layer.channels.size() == 1) return grey(image, first.values, 1);
   return exposed(image, layer, exposure);
 }

@@ -25,6 +25,8 @@ using DeclareCommand = void (*)(CLI::App& app, Run& run);
 void declare_render(CLI::App& app, Run& run);
 void declare_info(CLI::App& app, Run& run);
 void declare_inspect(CLI::App& app, Run& run);
+void declare_false_color(CLI::App& app, Run& run);
+void declare_probe(CLI::App& app, Run& run);
 void declare_depthmap(CLI::App& app, Run& run);
 void declare_diff(CLI::App& app, Run& run);
 void declare_bench(CLI::App& app, Run& run);

@@ -14,6 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "debug_picture.h"
+#include "false_color.h"
+#include "laterna/light_color.h"
 #include "laterna/measure.h"
 #include "layer_pictures.h"
 #include "outcome.h"
@@ -48,7 +50,7 @@ struct RenderOptions {
   std::string output, layer_pictures;
   std::string shadows = "map", shading = "pbr", passes = "single", interpolation = "perspective",
               depth = "auto";
-  std::string exposure = "0", background, debug;
+  std::string exposure = "0", background, debug, false_color;
   std::vector<std::string> layers;
   int samples = 1, anisotropy = 8, light_samples = 1;
   double noise = 0;
@@ -57,6 +59,12 @@ struct RenderOptions {
 
 void list_all_techniques() {
   for (const TechniqueDescription& t : list_techniques()) fmt::print("{:<12} {}\n", t.name, t.meaning);
+}
+void list_all_gels() {
+  for (const Gel& gel : list_gels()) {
+    const glm::vec3 passed = transmission(gel);
+    fmt::print("{:<12} {:.3f} {:.3f} {:.3f}   {}\n", gel.name, passed.x, passed.y, passed.z, gel.meaning);
+  }
 }
 void list_all_layers() {
   for (const LayerDescription& l : list_layers())
@@ -194,6 +202,11 @@ class RenderCommand {
       if (!debug) return report(debug.error());
       debug_ = std::move(*debug);
     }
+    if (!options_.false_color.empty()) {
+      Result<FalseColorChoice> choice = parse_false_color(options_.false_color);
+      if (!choice) return report(choice.error());
+      false_color_ = std::move(*choice);
+    }
     if (const std::string fault = find_output_fault(*settings); !fault.empty())
       return report(bad_option(fault));
     if (Result<void> writable = check_image_output(options_.output); !writable)
@@ -216,6 +229,8 @@ class RenderCommand {
   [[nodiscard]] std::string find_output_fault(const RenderSettings& settings) const {
     const bool has_passes = std::ranges::find(settings.layers, Layer::passes) != settings.layers.end();
     if (has_passes && settings.passes != Passes::multi) return "--layers passes needs --passes multi";
+    if (false_color_ && (debug_ || !options_.layers.empty() || !options_.layer_pictures.empty()))
+      return "--false-colour takes the picture's place: leave --debug, --layers and --layer-pictures out";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
     if (!settings.layers.empty() && !keeps_layers(options_.output) && options_.layer_pictures.empty()) {
       return "--layers: only OpenEXR holds layers: give an output that ends in .exr, or --layer-pictures "
@@ -231,7 +246,7 @@ class RenderCommand {
     WriteOptions write;
     write.depth = kDepth.at(options_.depth);
     write.threads = renderer.threads();
-    const bool is_debug = debug_.has_value();
+    const bool is_debug = debug_.has_value() || false_color_.has_value();
     // In half precision the lights' layers would no longer add up to beauty.
     const bool has_light_layers = std::ranges::find(settings.layers, Layer::light) != settings.layers.end();
     if (has_light_layers && keeps_layers(options_.output) && options_.depth == "auto") {
@@ -264,6 +279,7 @@ class RenderCommand {
 
   Result<LayeredImage> draw_image(const Renderer& renderer, const View& view, const RenderSettings& settings,
                                   RenderStatistics& statistics) const {
+    if (false_color_) return draw_false_color(renderer, view, settings, *false_color_, statistics);
     if (!debug_) return draw_light(renderer, view, settings, statistics);
     Result<ExplainedPicture> shown = draw_debug_picture(renderer, view, settings, *debug_, statistics);
     if (!shown) return tl::unexpected(std::move(shown.error()));
@@ -290,6 +306,7 @@ class RenderCommand {
 
   const RenderOptions& options_;
   std::optional<DebugChoice> debug_;
+  std::optional<FalseColorChoice> false_color_;
   double load_ms_ = 0;
 };
 
@@ -380,6 +397,7 @@ void declare_render(CLI::App& app, Run& run) {
       ->check(CLI::IsMember(names_of(kDepth)))
       ->capture_default_str();
   command->add_option("--debug", o.debug, describe_debug_choices());
+  command->add_option("--false-colour,--false-color", o.false_color, describe_false_color());
   o.scene.declare_machine(*command);
   command->add_flag("--json", o.json, "print what it cost, to standard output");
   command->add_flag_callback(
@@ -396,6 +414,13 @@ void declare_render(CLI::App& app, Run& run) {
         throw CLI::Success();
       },
       "print layers and end");
+  command->add_flag_callback(
+      "--list-gels",
+      [] {
+        list_all_gels();
+        throw CLI::Success();
+      },
+      "print gels that rigs know, with what they pass of R, G and B, and end");
   command->callback([options, &run] { run = [options] { return RenderCommand(*options).run(); }; });
 }
 

@@ -120,6 +120,75 @@ bool is_written(const Result<void>& result, const std::filesystem::path& file) {
   return result.has_value();
 }
 
+/// Dashes, 3 m long, 9 m apart, along the middle of a way that runs to −Z.
+Primitive dashes(float from, float to, float width) {
+  Primitive all;
+  for (float z = from; z > to; z -= 9)
+    append(all, rectangle({0, 0.005F, z - 1.5F}, kRight, -kFront, {width, 3}, 1));
+  return all;
+}
+
+/// Row 20: a road to a wall, a car at the origin that looks along −Z, 25 m before the wall.
+GlbFile make_road() {
+  GlbFile file;
+  const int asphalt =
+      file.add_material({.name = "asphalt", .color = {0.09F, 0.09F, 0.095F}, .roughness = 0.95F});
+  const int paint = file.add_material({.name = "road paint", .color = {0.75F, 0.75F, 0.72F}});
+  const int grass = file.add_material({.name = "grass", .color = {0.06F, 0.10F, 0.03F}, .roughness = 1});
+  const int concrete =
+      file.add_material({.name = "concrete", .color = {0.55F, 0.54F, 0.52F}, .roughness = 0.9F});
+  const int lacquer =
+      file.add_material({.name = "lacquer", .color = {0.35F, 0.03F, 0.03F}, .roughness = 0.4F});
+  const int coat = file.add_material({.name = "coat", .color = {0.30F, 0.28F, 0.22F}, .roughness = 0.9F});
+  file.add_object("road", rectangle({-1.75F, 0, -10}, kRight, -kFront, {7, 34}, 1), asphalt);
+  file.add_object("verge", rectangle({0, -0.02F, -10}, kRight, -kFront, {40, 34}, 1), grass);
+  Primitive middle = dashes(6, -25, 0.12F);
+  for (glm::vec3& p : middle.positions) p.x -= 1.75F;
+  file.add_object("middle line", middle, paint);
+  file.add_object("edge line", rectangle({1.6F, 0.005F, -10}, kRight, -kFront, {0.15F, 34}, 1), paint);
+  file.add_object("wall", rectangle({0, 2.5F, -25}, kRight, kUp, {40, 5}, 1), concrete);
+  Primitive body = box({-0.85F, 0.3F, 0.05F}, {0.85F, 0.85F, 4.2F});
+  append(body, box({-0.75F, 0.85F, 1.3F}, {0.75F, 1.4F, 3.9F}));
+  for (const float x : {-0.8F, 0.6F}) {
+    for (const float z : {0.5F, 3.2F}) append(body, box({x, 0, z}, {x + 0.2F, 0.6F, z + 0.6F}));
+  }
+  file.add_object("car", body, lacquer);
+  const auto person = [](glm::vec3 foot) {
+    Primitive p = lathe(
+        foot, {{0, 0}, {0.16F, 0}, {0.16F, 0}, {0.14F, 0.8F}, {0.22F, 1.35F}, {0.08F, 1.5F}, {0, 1.52F}}, 24);
+    append(p, ball(foot + glm::vec3(0, 1.62F, 0), 0.12F, 12));
+    return p;
+  };
+  file.add_object("walker", person({2.3F, 0, -16}), coat);
+  file.add_object("other walker", person({-4.4F, 0, -19}), coat);
+  Primitive posts;
+  for (float z = -2; z > -25; z -= 7.5F) append(posts, box({2.0F, 0, z}, {2.1F, 0.9F, z + 0.1F}));
+  file.add_object("posts", posts, paint);
+  return file;
+}
+
+/// Row 20: an apron before a hangar; the aircraft stands at the origin and looks along −Z.
+GlbFile make_apron() {
+  GlbFile file;
+  const int concrete =
+      file.add_material({.name = "concrete", .color = {0.25F, 0.25F, 0.24F}, .roughness = 0.9F});
+  const int paint = file.add_material({.name = "yellow paint", .color = {0.80F, 0.55F, 0.05F}});
+  const int sheet = file.add_material({.name = "sheet", .color = {0.45F, 0.48F, 0.50F}, .roughness = 0.6F});
+  const int dark = file.add_material({.name = "doors", .color = {0.12F, 0.14F, 0.18F}, .roughness = 0.6F});
+  file.add_object("apron", rectangle({0, 0, -35}, kRight, -kFront, {120, 110}, 1), concrete);
+  file.add_object("taxi line", rectangle({0, 0.005F, -35}, kRight, -kFront, {0.3F, 90}, 1), paint);
+  file.add_object("hangar", rectangle({0, 7, -80}, kRight, kUp, {90, 14}, 1), sheet);
+  Primitive doors;
+  for (const float x : {-26.0F, 0.0F, 26.0F}) append(doors, box({x - 10, 0, -79.9F}, {x + 10, 9, -79.7F}));
+  file.add_object("doors", doors, dark);
+  Primitive cones;
+  for (float z = -10; z > -75; z -= 10) {
+    for (const float x : {-12.0F, 12.0F}) append(cones, box({x, 0, z}, {x + 0.4F, 0.8F, z + 0.4F}));
+  }
+  file.add_object("cones", cones, paint);
+  return file;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -138,6 +207,10 @@ int main(int argc, char** argv) {
   scene("stage.glb", make_stage());
   scene("table.glb", make_table());
   scene("room.glb", make_room());
+  scene("road.glb", make_road());
+  scene("apron.glb", make_apron());
+  picture("low_beam.png", paint_low_beam());
+  picture("beam.png", paint_beam(256, 128));
   picture("lake.png", paint_slide(768, 512));
   picture("star.png", paint_star(256));
   return is_good ? 0 : 4;

@@ -174,4 +174,51 @@ Image paint_star(int side) {
   return image;
 }
 
+namespace {
+
+Image paint_intensity(int width, int height, const std::function<float(glm::vec2)>& intensity) {
+  Image image(width, height, 1, PixelType::u16, Transfer::linear);
+  const std::span<std::uint16_t> values = image.values<std::uint16_t>();
+  std::size_t i = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float value = std::clamp(intensity(glm::vec2(x, y) + 0.5F), 0.0F, 1.0F);
+      values[i++] = static_cast<std::uint16_t>(std::lround(65535 * value));
+    }
+  }
+  return image;
+}
+
+/// Candela in a direction with these tangents to the right and up. The cut-off is UN Regulation 112's: level, 1 % below
+/// the lamp, and rising by 15° to the right of the axis.
+float low_beam_candela(float right, float up) {
+  constexpr float kDip = 0.01F;
+  constexpr float kRise = 0.26794919F;  // tan 15°
+  constexpr float kEdge = 0.002F;       // half the width of the cut-off
+  const float below = std::max(right, 0.0F) * kRise - kDip - up;
+  const float depth = std::max(below, 0.0F);
+  const auto bell = [](float x, float width) { return std::exp(-x * x / (2 * width * width)); };
+  // A hot spot close under the cut-off, and a wide carpet of light.
+  const float lit = 18000 * bell(right - 0.02F, 0.07F) * std::exp(-depth / 0.035F) +
+                    6000 * bell(right, 0.3F) * std::exp(-depth / 0.12F);
+  constexpr float kStray = 120;
+  return kStray * bell(right, 0.3F) + lit * glm::smoothstep(-kEdge, kEdge, below);
+}
+
+}  // namespace
+
+Image paint_low_beam() {
+  return paint_intensity(1024, 320, [](glm::vec2 p) {
+    return low_beam_candela((p.x - 512) / 640, (64 - p.y) / 640) / kLowBeamCandela;
+  });
+}
+
+Image paint_beam(int width, int height) {
+  return paint_intensity(width, height, [width, height](glm::vec2 p) {
+    const glm::vec2 q = 2.0F * p / glm::vec2(width, height) - 1.0F;
+    const float out = glm::dot(q, q);
+    return std::pow(10.0F, -out) * (1 - glm::smoothstep(0.8F, 1.0F, out));
+  });
+}
+
 }  // namespace laterna::examples

@@ -25,13 +25,16 @@ enum class Layer : std::uint8_t {
   light,       ///< ambient.R/G/B and light.<name>.R/G/B; beauty is their sum in this order, bit for bit
   visibility,  ///< visibility.<name>: the fraction α of the light that arrives
   uv,          ///< uv.<name>.u/.v: slide coordinates of projectors, NaN outside the frame
-  lux,         ///< lux.Y: illuminance of the surface in lux
+  lux,         ///< lux.Y: direct illuminance of the surface in lux
   depth,       ///< Z: metres along the axis, +infinity where nothing is
   position,    ///< P.X/Y/Z: world, metres
   normal,      ///< N.X/Y/Z: shading normal, world
   albedo,      ///< albedo.R/G/B: base colour, linear
   object,      ///< id.object: number of the object, −1 where nothing is; names in the metadata
   passes,      ///< pass.*: the frame buffer after each pass, with Passes::multi
+  luminance,  ///< luminance.Y: cd/m² toward the camera, where shading is pbr; otherwise the picture's luminance
+  /// pixel_density.<name>: of each projector, pixels per metre of the surface, in the sparser direction.
+  pixel_density,
 };
 struct LayerDescription {
   Layer layer;
@@ -127,6 +130,10 @@ struct ShadowMapView {
   glm::dmat4 image_from_world{1.0};
 };
 
+struct Probe;
+struct ProbeSettings;
+struct ProbeReport;
+
 class Renderer {
  public:
   /// Validates the scene, decodes its pictures and lays out its triangles.
@@ -160,6 +167,15 @@ class Renderer {
   /// Draws all channels, with metadata. R, G, B are linear and unclamped; A is coverage, colour premultiplied by it.
   Result<LayeredImage> render(const View& view, const RenderSettings& settings, const Progress& progress = {},
                               RenderStatistics* statistics = nullptr) const;
+
+  /// Illuminance at points, light by light (laterna/probes.h). What shadows each light has is found by rays, whatever its
+  /// technique; lights without shadows pass through everything here too. Error: a faulty probe or setting.
+  [[nodiscard]] Result<ProbeReport> measure_probes(std::span<const Probe> probes,
+                                                   const ProbeSettings& settings,
+                                                   const Progress& progress = {}) const;
+  /// Probes all over an object (a name in id.object), on the outer side of every triangle: where lines parallel to the
+  /// world axis that the triangle faces most meet it, `spacing` metres apart. Error: no such object, or too many probes.
+  [[nodiscard]] Result<std::vector<Probe>> probes_on_object(const std::string& object, double spacing) const;
 
   /// Moves a node, or replaces a light. What does not depend on it is kept. Not to be called during a render.
   Result<void> set_transform(int node, const glm::dmat4& parent_from_node);

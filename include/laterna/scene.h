@@ -151,6 +151,11 @@ struct Light {
   bool slide_is_intensity = false;
   BeamProfile profile = BeamProfile::flat_field;
   Outside outside = Outside::black;
+  /// Projector: what a black pixel of the slide still throws, as a fraction of what a white one does: 1 over the contrast
+  /// ratio. 0 … 1; not for intensity maps.
+  double black_level = 0;
+  /// Projector: pixels of its panel, for Layer::pixel_density. 0: the slide's.
+  int panel_width = 0, panel_height = 0;
 
   /// Directional: the shadow map's frustum is fitted to the scene; otherwise `projection` (orthographic) holds it.
   bool fit = true;

@@ -49,7 +49,8 @@ class MemoryStream : public Imf::OStream {
 
 // Colours are fine in half precision; data is not.
 bool is_data(std::string_view name) {
-  constexpr std::array<std::string_view, 6> kLayers = {"P.", "N.", "uv.", "id.", "lux.", "visibility."};
+  constexpr std::array<std::string_view, 8> kLayers = {"P.",   "N.",          "uv.",        "id.",
+                                                       "lux.", "visibility.", "luminance.", "pixel_density."};
   return name == "Z" || std::any_of(kLayers.begin(), kLayers.end(),
                                     [&](std::string_view layer) { return name.starts_with(layer); });
 }

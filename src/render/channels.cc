@@ -6,13 +6,17 @@
 namespace laterna {
 namespace {
 
-constexpr std::array<LayerDescription, 10> kLayers = {{
+constexpr std::array<LayerDescription, 12> kLayers = {{
     {Layer::light, "light", "ambient.R/G/B, light.<name>.R/G/B",
      "ambient and each light by itself; their sum is the picture"},
     {Layer::visibility, "visibility", "visibility.<name>",
      "fraction of each light that arrives, 0 in shadow"},
     {Layer::uv, "uv", "uv.<name>.u/.v", "slide coordinates of each projector, NaN outside its frame"},
-    {Layer::lux, "lux", "lux.Y", "illuminance of the surface in lux"},
+    {Layer::lux, "lux", "lux.Y", "direct illuminance of the surface in lux, with shadows and slides"},
+    {Layer::luminance, "luminance", "luminance.Y",
+     "cd/m² that the camera sees with --shading pbr; otherwise the picture's luminance"},
+    {Layer::pixel_density, "pixel_density", "pixel_density.<name>",
+     "each projector's pixels per metre of the surface, in the sparser direction"},
     {Layer::depth, "depth", "Z", "distance along the camera's axis in metres, infinity where nothing is"},
     {Layer::position, "position", "P.X/Y/Z", "world position in metres"},
     {Layer::normal, "normal", "N.X/Y/Z", "shading normal in world space"},
@@ -53,6 +57,16 @@ class ChannelList {
         prefix + suffixes[1], [find](const TileResult& tile) { return &find(tile).g; }, is_light);
     add(
         prefix + suffixes[2], [find](const TileResult& tile) { return &find(tile).b; }, is_light);
+  }
+  void add_luminance() {
+    channels_.push_back({"luminance.Y",
+                         [](const TileResult& tile, TilePlane& buffer) -> const TilePlane* {
+                           const TileColor& c = tile.beauty;
+                           for (std::size_t i = 0; i < buffer.size(); ++i)
+                             buffer[i] = 0.2126F * c.r[i] + 0.7152F * c.g[i] + 0.0722F * c.b[i];
+                           return &buffer;
+                         },
+                         true});
   }
   void add_object_ids() {
     channels_.push_back({"id.object",
@@ -98,6 +112,17 @@ void add_lights(ChannelList& list, const RenderSettings& settings, const frame::
   }
 }
 
+void add_photometry(ChannelList& list, const RenderSettings& settings, const frame::Frame& frame) {
+  if (has_layer(settings, Layer::lux)) list.add("lux.Y", [](const TileResult& t) { return &t.lux; });
+  if (has_layer(settings, Layer::luminance)) list.add_luminance();
+  if (!has_layer(settings, Layer::pixel_density)) return;
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+    if (frame.lights[i].light->type != LightType::projector) continue;
+    list.add_data("pixel_density." + frame.lights[i].light->name,
+                  [i](const TileResult& t) { return &t.pixel_density[i]; });
+  }
+}
+
 void add_passes(ChannelList& list, const RenderSettings& settings, const frame::Frame& frame) {
   if (!has_layer(settings, Layer::passes) || settings.passes != Passes::multi) return;
   list.add_data("pass.1.z", [](const TileResult& t) { return &t.depth; });
@@ -125,7 +150,7 @@ std::vector<PictureChannel> picture_channels(const RenderSettings& settings, con
   list.add_color("", kRgb, [](const TileResult& t) -> const TileColor& { return t.beauty; });
   list.add("A", [](const TileResult& t) { return &t.alpha; });
   add_lights(list, settings, frame);
-  if (has_layer(settings, Layer::lux)) list.add("lux.Y", [](const TileResult& t) { return &t.lux; });
+  add_photometry(list, settings, frame);
   if (has_layer(settings, Layer::depth)) list.add_data("Z", [](const TileResult& t) { return &t.depth; });
   if (has_layer(settings, Layer::position)) {
     list.add_color(
@@ -151,6 +176,7 @@ shade::WantedLayers wanted_layers(const RenderSettings& settings) {
   wanted.visibility = has_layer(settings, Layer::visibility) || wanted.passes;
   wanted.slide_uv = has_layer(settings, Layer::uv);
   wanted.lux = has_layer(settings, Layer::lux);
+  wanted.pixel_density = has_layer(settings, Layer::pixel_density);
   wanted.geometry = has_layer(settings, Layer::depth) || has_layer(settings, Layer::position) ||
                     has_layer(settings, Layer::normal) || has_layer(settings, Layer::object) || wanted.passes;
   wanted.albedo = has_layer(settings, Layer::albedo);

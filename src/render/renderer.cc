@@ -15,6 +15,8 @@
 #include "render/open_sheets.h"
 #include "render/picture_accumulation.h"
 #include "render/picture_writer.h"
+#include "render/probe_grid.h"
+#include "render/probe_light.h"
 #include "render/progress_report.h"
 #include "render/scene_defaults.h"
 #include "render/settings_check.h"
@@ -415,6 +417,25 @@ Result<LayeredImage> Renderer::Implementation::draw_channels(const View& view, c
 Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& settings,
                                       const Progress& progress, RenderStatistics* statistics) const {
   return guarded([&] { return implementation_->draw_channels(view, settings, progress, statistics); });
+}
+
+Result<ProbeReport> Renderer::measure_probes(std::span<const Probe> probes, const ProbeSettings& settings,
+                                             const Progress& progress) const {
+  if (Result<void> checked = render::check_probes(probes, settings); !checked)
+    return tl::unexpected(checked.error());
+  const Implementation& self = *implementation_;
+  return guarded([&]() -> Result<ProbeReport> {
+    ProgressReport report(progress, render::probe_steps(probes, settings));
+    ProbeReport measured =
+        render::measure_probes({self.frame, self.pool, self.set, self.ray_scene(), report}, probes, settings);
+    if (report.is_cancelled())
+      return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
+    return measured;
+  });
+}
+
+Result<std::vector<Probe>> Renderer::probes_on_object(const std::string& object, double spacing) const {
+  return guarded([&] { return render::probes_on_object(implementation_->frame, object, spacing); });
 }
 
 Result<void> Renderer::set_transform(int node, const glm::dmat4& parent_from_node) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "laterna/image.h"
+#include "laterna/light_color.h"
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
 #include "scene/rig_shadows.h"
@@ -68,12 +69,31 @@ class LightReader {
     light_.name = object_.string("name").value_or("");
     if (object_.has("name") && light_.name.empty()) object_.error("name", "is empty");
     light_.enabled = object_.boolean("enabled").value_or(true);
-    if (const auto color = object_.numbers<3>("color", kAmountOfLight)) {
-      light_.color = glm::vec3((*color)[0], (*color)[1], (*color)[2]);
-    }
+    read_color();
     read_place();
     read_brightness();
     read_source();
+  }
+
+  // Of the lamp, and of what is put before it.
+  void read_color() {
+    if (const auto color = object_.numbers<3>("color", kAmountOfLight)) {
+      light_.color = glm::vec3((*color)[0], (*color)[1], (*color)[2]);
+    }
+    constexpr NumberRange kTemperature{kLeastKelvin, kMostKelvin, false, false};
+    if (const auto kelvin = object_.number("color_temperature", kTemperature)) {
+      light_.color = color_of_temperature(*kelvin);
+      if (object_.has("color"))
+        object_.error("color_temperature", "give either color or color_temperature, not both");
+    }
+    if (const auto filter = object_.numbers<3>("filter", kZeroToOne)) {
+      light_.color *= glm::vec3((*filter)[0], (*filter)[1], (*filter)[2]);
+    }
+    using NamedGel = std::pair<std::string_view, const Gel*>;
+    std::vector<NamedGel> gels;
+    for (const Gel& gel : list_gels()) gels.emplace_back(gel.name, &gel);
+    if (const auto gel = object_.choice<const Gel*>("gel", std::span<const NamedGel>(gels)))
+      light_.color *= transmission(**gel);
   }
 
   void read_place() {
@@ -200,10 +220,24 @@ class LightReader {
                                                       {"repeat", Outside::repeat},
                                                       {"mirror", Outside::mirror}})
                          .value_or(light_.outside);
+    read_panel();
     const std::optional<double> slide_aspect = aspect_for_horizontal_field();
     if (const auto frustum = read_frustum(json_, object_, faults_, slide_aspect)) {
       light_.projection = frustum->projection;
       light_.aspect_from_slide = !frustum->aspect_is_given && !slide_aspect;
+    }
+  }
+
+  void read_panel() {
+    light_.black_level = object_.number("black_level", kZeroToOne).value_or(0);
+    if (light_.slide_is_intensity && object_.has("black_level"))
+      object_.error("black_level", "has no effect: an intensity map holds all that is thrown");
+    constexpr NumberRange kPixels{1, kMaxImageSide, false, false};
+    if (const auto pixels = object_.numbers<2>("pixels", kPixels)) {
+      light_.panel_width = static_cast<int>((*pixels)[0]);
+      light_.panel_height = static_cast<int>((*pixels)[1]);
+      if (light_.panel_width != (*pixels)[0] || light_.panel_height != (*pixels)[1])
+        object_.error("pixels", "expected whole numbers");
     }
   }
 

@@ -12,7 +12,8 @@
 //   point        "candela", "range", "attenuation"
 //   spot         "candela", "range", "attenuation", "inner_cone_deg", "outer_cone_deg" (half angles)
 //   projector    "candela" or "lumens", "slide" or "intensity_map", a frustum, "profile", "outside", "range",
-//                "attenuation"
+//                "attenuation", "black_level", "pixels"
+// All: "color" or "color_temperature", "filter", "gel".
 // "attenuation": none, linear, inverse_square, gltf_windowed; a "range" alone means gltf_windowed.
 // "shadow": true, false or {"technique", "resolution", "filter", "kernel", "constant_bias", "slope_bias",
 // "caster_faces", "outside"}.

@@ -96,6 +96,7 @@ class Validator {
   void check_cameras();
   void check_lights();
   void check_light(const Light& light, const std::string& place);
+  void check_panel(const Light& light, const std::string& place);
   void check_source(const Light& light, const std::string& place);
   void check_shadow(const ShadowSettings& shadow, const std::string& place);
   void check_plane(const ShadowPlane& plane, const std::string& place);
@@ -316,6 +317,7 @@ void Validator::check_light(const Light& light, const std::string& place) {
   if (light.type == LightType::directional && !light.fit && !light.projection.is_orthographic) {
     fault(place + ".projection", "a directional light's projection must be orthographic");
   }
+  check_panel(light, place);
   check_source(light, place + ".source");
   check_shadow(light.shadow, place + ".shadow");
   if (std::string message = find_fault(light.shadow.depth, light); !message.empty())
@@ -327,6 +329,18 @@ void Validator::check_light(const Light& light, const std::string& place) {
   if (light.shadow.technique) {
     if (std::string message = find_fault(*light.shadow.technique, light); !message.empty())
       fault(place + ".shadow.technique", std::move(message));
+  }
+}
+
+void Validator::check_panel(const Light& light, const std::string& place) {
+  check_number(place + ".black_level", light.black_level, 0, 1);
+  if (light.black_level > 0 && light.slide_is_intensity)
+    fault(place + ".black_level", "an intensity map holds all that is thrown: it has no black level");
+  check_number(place + ".panel_width", light.panel_width, 0, kMaxImageSide);
+  check_number(place + ".panel_height", light.panel_height, 0, kMaxImageSide);
+  if ((light.panel_width == 0) != (light.panel_height == 0)) {
+    fault(place + ".panel_height", fmt::format("expected a width and a height, or neither, got {} x {}",
+                                               light.panel_width, light.panel_height));
   }
 }
 

@@ -31,6 +31,7 @@ BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterVie
       is_orthographic(placed.view.projection.is_orthographic),
       is_flat_field(frame::beam_profile(*placed.light) == BeamProfile::flat_field),
       slide(placed.slide),
+      black_level(placed.light->slide_is_intensity ? 0.0F : static_cast<float>(placed.light->black_level)),
       anisotropy(most_probes) {
   for (int i = 0; i < 3; ++i) {
     color[i] = static_cast<float>(light->color[i] * (is_papers ? 1.0 : placed.intensity));

@@ -30,6 +30,7 @@ struct BoundLight {
   bool is_orthographic = false;
   bool is_flat_field = true;
   const image::MipChain* slide = nullptr;
+  float black_level = 0;  // of the slide
   Sampler slide_sampler;
   int anisotropy = 1;
 

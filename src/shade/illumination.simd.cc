@@ -174,7 +174,12 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
   }
   arriving.color = Splat3(light.color) * intensity;
   if (light.slide != nullptr) {
-    const Vector3 t = LookUp(*light.slide, light.slide_sampler, light.anisotropy, f);
+    Vector3 t = LookUp(*light.slide, light.slide_sampler, light.anisotropy, f);
+    // Panels leak: what they throw runs from the black level to white.
+    if (light.black_level > 0) {
+      const auto black = Splat(light.black_level), rest = Splat(1.0F - light.black_level);
+      t = {t.x * rest + black, t.y * rest + black, t.z * rest + black};
+    }
     arriving.color = {arriving.color.x * t.x, arriving.color.y * t.y, arriving.color.z * t.z};
   }
   arriving.shines = shines;

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "shade/illuminance.h"
 #include "shade/scatter.h"
 
 namespace laterna::shade {
@@ -51,6 +52,11 @@ TileLayers::TileLayers(const frame::Frame& frame, const raster::RasterView& view
     : frame_(frame), view_(view), wanted_(wanted), result_(result) {
   const std::size_t lights = frame.lights.size();
   if (wanted.visibility) result_.visibility.resize(lights);
+  if (wanted.pixel_density) {
+    result_.pixel_density.resize(lights);
+    for (const frame::PlacedLight& placed : frame.lights)
+      pixel_densities_.push_back(PixelDensity::of(placed));
+  }
   if (!wanted.slide_uv) return;
   result_.slide_s.resize(lights);
   result_.slide_t.resize(lights);
@@ -59,6 +65,7 @@ TileLayers::TileLayers(const frame::Frame& frame, const raster::RasterView& view
 void TileLayers::start_tile() {
   for (TilePlane& plane : result_.visibility) plane.fill(0);
   if (wanted_.lux) result_.lux.fill(0);
+  for (TilePlane& plane : result_.pixel_density) plane.fill(0);
   for (TilePlane& plane : result_.slide_s) plane.fill(kNaN);
   for (TilePlane& plane : result_.slide_t) plane.fill(kNaN);
   if (wanted_.geometry) {
@@ -105,11 +112,16 @@ void TileLayers::store_slide_coordinates(std::size_t light, const SurfaceSamples
 void TileLayers::add_lux(const SurfaceSamples& s, const Irradiance& e, const Arrival& arrival) {
   const ArrivingShares share(arrival);
   add_to(result_.lux, s, [&](std::size_t i) {
-    if (!is_lit(e, i)) return 0.0F;
-    if (!arrival.is_tinted)
-      return (0.2126F * e.r[i] + 0.7152F * e.g[i] + 0.0722F * e.b[i]) * e.cosine[i] * arrival.alpha[i];
-    return (0.2126F * e.r[i] * share.r[i] + 0.7152F * e.g[i] * share.g[i] + 0.0722F * e.b[i] * share.b[i]) *
-           e.cosine[i];
+    return illuminance(s, e, {share.r[i], share.g[i], share.b[i]}, i);
+  });
+}
+
+void TileLayers::store_pixel_density(std::size_t light, const SurfaceSamples& s) {
+  if (!pixel_densities_[light]) return;
+  const PixelDensity& density = *pixel_densities_[light];
+  add_to(result_.pixel_density[light], s, [&](std::size_t i) {
+    return density.at({s.x_ws[i], s.y_ws[i], s.z_ws[i]},
+                      {s.normal_x_ws[i], s.normal_y_ws[i], s.normal_z_ws[i]});
   });
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "frame/frame.h"
 #include "raster/tile_raster.h"
 #include "shade/illumination.h"
+#include "shade/pixel_density.h"
 #include "shadow/surface_samples.h"
 
 namespace laterna::shade {
@@ -18,7 +20,8 @@ struct WantedLayers {
   bool visibility = false;  // per light
   bool slide_uv = false;    // per projector
   bool lux = false;
-  bool geometry = false;  // depth, position, normal, object
+  bool pixel_density = false;  // per projector
+  bool geometry = false;       // depth, position, normal, object
   bool albedo = false;
   bool passes = false;  // Passes::multi: the frame buffer after each pass
 };
@@ -40,7 +43,8 @@ struct TileResult {
   /// wanted.passes in the papers' model: c_p of the slide algorithm, ambient + Σ slide · α so far, not yet times c.
   std::vector<TileColor> pass_illumination;
   TilePlane lux;
-  TilePlane depth;  // metres along the axis, +infinity where nothing is
+  std::vector<TilePlane> pixel_density;  // wanted.pixel_density: per light
+  TilePlane depth;                       // metres along the axis, +infinity where nothing is
   TileColor position, normal, albedo;
   std::array<std::uint32_t, raster::kTilePixels>
       object;  // index of the frame's object, kNoObject where nothing is
@@ -62,9 +66,10 @@ class TileLayers {
                       const shadow::Arrival& arrival);
   void store_slide_coordinates(std::size_t light, const shadow::SurfaceSamples& samples,
                                const Irradiance& irradiance);
-  /// Illuminance: Rec. 709 luminance of what falls on the surface.
+  /// Illuminance: Rec. 709 luminance of what falls on the surface, by the normal of its triangle.
   void add_lux(const shadow::SurfaceSamples& samples, const Irradiance& irradiance,
                const shadow::Arrival& arrival);
+  void store_pixel_density(std::size_t light, const shadow::SurfaceSamples& samples);
   /// Pass 2 of the slide algorithm, c_p ← c_p + c_τ where light arrives: onto `sum`.
   static void add_illumination(const shadow::SurfaceSamples& samples, const Irradiance& irradiance,
                                const shadow::Arrival& arrival, TileColor& sum);
@@ -74,6 +79,7 @@ class TileLayers {
   const raster::RasterView& view_;
   const WantedLayers& wanted_;
   TileResult& result_;
+  std::vector<std::optional<PixelDensity>> pixel_densities_;  // of the lights that are projectors with pixels
 };
 
 }  // namespace laterna::shade

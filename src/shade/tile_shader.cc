@@ -260,7 +260,8 @@ class TileShader::Worker {
   }
 
   [[nodiscard]] bool wants_arrival(bool is_opaque) const {
-    return is_opaque && (job_.wanted.visibility || job_.wanted.lux || job_.wanted.slide_uv);
+    return is_opaque &&
+           (job_.wanted.visibility || job_.wanted.lux || job_.wanted.slide_uv || job_.wanted.pixel_density);
   }
 
   void find_irradiance(const BoundLight& light) {
@@ -367,6 +368,7 @@ class TileShader::Worker {
     if (keeps_illumination()) {
       TileLayers::add_illumination(s, *irradiance_, seen, result_.pass_illumination[light]);
     }
+    if (wanted.pixel_density && sample_ == 0) layers_.store_pixel_density(light, s);
     if (!wanted.lux) return;
     if (!job_.physical_lights.empty()) find_irradiance(job_.physical_lights[light]);
     layers_.add_lux(s, *irradiance_, *arrival_);

@@ -174,6 +174,29 @@ const RigCase kRigCases[] = {
     {"ColourNegative",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"color\": [1, 1, -0.5]}]}",
      "r.json: line 1: lights[0].color[2]: expected a number from 0 to 1000000000000, got -0.5"},
+    {"ColourAndTemperature",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"color\": [1,1,1],\n\"color_temperature\": "
+     "3000}]}",
+     "r.json: line 2: lights[0].color_temperature: give either color or color_temperature, not both"},
+    {"TemperatureTooLow",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"color_temperature\": 900}]}",
+     "r.json: line 1: lights[0].color_temperature: expected a number from 1000 to 40000, got 900"},
+    {"FilterThatAddsLight",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"filter\": [1, 1.5, 0]}]}",
+     "r.json: line 1: lights[0].filter[1]: expected a number from 0 to 1, got 1.5"},
+    {"GelMisspelt", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"gel\": \"full_cbt\"}]}",
+     "r.json: line 1: lights[0].gel: expected one of \"full_ctb\", \"half_ctb\", \"quarter_ctb\", "
+     "\"full_cto\", "
+     "\"half_cto\", \"quarter_cto\", \"nd_0.15\", \"nd_0.3\", \"nd_0.6\", \"nd_0.9\", \"nd_1.2\", got "
+     "\"full_cbt\" (did you mean \"full_ctb\"?)"},
+    {"BlackLevelAboveWhite",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"black_level\": 2}]}",
+     "r.json: line 1: lights[0].black_level: expected a number from 0 to 1, got 2"},
+    {"PixelsNotWhole",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"pixels\": [1920.5, 1080]}]}",
+     "r.json: line 1: lights[0].pixels: expected whole numbers"},
     {"RangeZero", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"range\": 0}]}",
      "r.json: line 1: lights[0].range: expected a number greater than 0, got 0"},
     {"AttenuationNeedsRange",

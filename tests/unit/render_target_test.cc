@@ -181,6 +181,8 @@ TEST(RenderChannels, EachLayerHasTheChannelsItsDescriptionNames) {
   EXPECT_EQ(names(Layer::visibility), (Names{"visibility.lamp", "visibility.sun"}));
   EXPECT_EQ(names(Layer::uv), (Names{"uv.lamp.u", "uv.lamp.v"}));
   EXPECT_EQ(names(Layer::lux), Names{"lux.Y"});
+  EXPECT_EQ(names(Layer::luminance), Names{"luminance.Y"});
+  EXPECT_EQ(names(Layer::pixel_density), Names{"pixel_density.lamp"});
   EXPECT_EQ(names(Layer::depth), Names{"Z"});
   EXPECT_EQ(names(Layer::position), (Names{"P.X", "P.Y", "P.Z"}));
   EXPECT_EQ(names(Layer::normal), (Names{"N.X", "N.Y", "N.Z"}));

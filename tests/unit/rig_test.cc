@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "laterna/light_color.h"
 #include "unit/gltf_builder.h"
 
 namespace laterna {
@@ -113,6 +114,29 @@ TEST(Rig, FrustumsOfEveryKind) {
   EXPECT_EQ(parallel.projection.right, 3);
   EXPECT_EQ(parallel.projection.near, 0);
   EXPECT_TRUE(parallel.aspect_from_picture);
+}
+
+TEST(Rig, ColoursByTemperatureFilterAndGel) {
+  const auto color = [](const std::string& keys) {
+    return load_light(R"("type": "point", "position": [1, 2, 3], )" + keys).color;
+  };
+  EXPECT_EQ(color(R"("color_temperature": 3200)"), color_of_temperature(3200));
+  EXPECT_EQ(color(R"("color_temperature": 3200, "filter": [1, 0.5, 0])"),
+            color_of_temperature(3200) * glm::vec3(1, 0.5F, 0));
+  const Gel* orange = nullptr;
+  for (const Gel& gel : list_gels()) orange = gel.name == "full_cto" ? &gel : orange;
+  ASSERT_NE(orange, nullptr);
+  EXPECT_EQ(color(R"("color": [2, 1, 0.5], "gel": "full_cto")"),
+            glm::vec3(2, 1, 0.5F) * transmission(*orange));
+}
+
+TEST(Rig, ProjectorsPanels) {
+  const Light light = load_light(
+      std::string(R"("type": "projector", "yfov_deg": 30, "black_level": 0.0005, "pixels": [1920, 1080], )") +
+      kStand);
+  EXPECT_EQ(light.black_level, 0.0005);
+  EXPECT_EQ(light.panel_width, 1920);
+  EXPECT_EQ(light.panel_height, 1080);
 }
 
 TEST(Rig, PointLights) {
