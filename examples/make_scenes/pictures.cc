@@ -202,7 +202,10 @@ float low_beam_candela(float right, float up) {
   const float lit = 18000 * bell(right - 0.02F, 0.07F) * std::exp(-depth / 0.035F) +
                     6000 * bell(right, 0.3F) * std::exp(-depth / 0.12F);
   constexpr float kStray = 120;
-  return kStray * bell(right, 0.3F) + lit * glm::smoothstep(-kEdge, kEdge, below);
+  // Nothing is cut off by the map's own sides.
+  const float within =
+      (1 - glm::smoothstep(0.55F, 0.8F, std::abs(right))) * glm::smoothstep(-0.4F, -0.28F, up);
+  return within * (kStray * bell(right, 0.3F) + lit * glm::smoothstep(-kEdge, kEdge, below));
 }
 
 }  // namespace

@@ -74,7 +74,8 @@ Result<void> check_settings(const RenderSettings& settings, const View& view) {
         "the settings hold a shading model, shadow technique, passes or interpolation that there is not");
   }
   for (const Layer layer : settings.layers) {
-    if (!is_known(layer, Layer::passes)) return refuse("the settings ask for a layer that there is not");
+    if (std::ranges::find(list_layers(), layer, &LayerDescription::layer) == list_layers().end())
+      return refuse("the settings ask for a layer that there is not");
   }
   constexpr int kMostLightSamples = 65536;
   if (settings.light_samples < 1 || settings.light_samples > kMostLightSamples) {

@@ -307,7 +307,8 @@ TEST(Photometry, ProbesSeeWhatStandsInTheWay) {
   const auto read = [&] {
     std::vector<double> lux;
     const Renderer renderer = make_renderer(scene);
-    for (const ProbeReading& reading : renderer.measure_probes(probes, {})->readings)
+    const ProbeReport report = renderer.measure_probes(probes, {}).value();
+    for (const ProbeReading& reading : report.readings)
       lux.push_back(reading.lux);
     return lux;
   };
@@ -353,12 +354,14 @@ TEST(Photometry, AGridCoversAnObjectOnce) {
   const Renderer renderer = make_renderer(std::move(scene));
   const auto area = [&](const char* object) {
     double sum = 0;
-    for (const Probe& probe : renderer.probes_on_object(object, 0.02).value()) sum += probe.area;
+    const std::vector<Probe> probes = renderer.probes_on_object(object, 0.02).value();
+    for (const Probe& probe : probes) sum += probe.area;
     return sum;
   };
   EXPECT_NEAR(area("box"), 2 * (2 * 1 + 2 * 0.5 + 1 * 0.5), 0.05);
   EXPECT_NEAR(area("ball"), 4 * kPi, 0.01 * 4 * kPi + 0.2);
-  for (const Probe& probe : renderer.probes_on_object("ball", 0.1).value()) {
+  const std::vector<Probe> on_ball = renderer.probes_on_object("ball", 0.1).value();
+  for (const Probe& probe : on_ball) {
     EXPECT_NEAR(glm::length(probe.position_ws), 1, 0.02);
     EXPECT_GT(glm::dot(probe.position_ws, probe.normal_ws), 0.9);
   }
