@@ -10,6 +10,7 @@
 #include <regex>
 #include <set>
 
+#include "laterna/light_color.h"
 #include "laterna/measure.h"
 #include "laterna/render.h"
 #include "reference/projector_scenes.h"
@@ -670,14 +671,39 @@ TEST(Conventions, D6_UvIsTheSlideCoordinateAndNaNOutside) {
   EXPECT_TRUE(std::isnan(at(image, "uv.light.u", 3, 8)));
 }
 
-TEST(Conventions, D7_LuxIsIlluminanceInRec709Weights) {
+TEST(Conventions, D7_LuxIsIlluminanceOnTheTrianglesNormalInRec709Weights) {
   Scene scene = wall_scene();
+  for (glm::vec3& normal : scene.meshes[0].primitives[0].normals) normal = {0.6F, 0, 0.8F};
   scene.materials[0].base_color = {0.1F, 0.2F, 0.3F, 1};  // does not matter
   Light light = light_of(LightType::directional, 10);
   light.color = {1, 0.5F, 0.25F};
   add_light(scene, light, {0, 3, 4}, {0, 0, 0});
   EXPECT_NEAR(at(draw_lux(scene, 4), "lux.Y", 2, 2), 10 * 0.8 * (0.2126 + 0.7152 * 0.5 + 0.0722 * 0.25),
               1e-5);
+}
+
+TEST(Conventions, D11_LuminanceIsThePicturesLuminance) {
+  Scene scene = wall_scene();
+  scene.materials[0].base_color = {0, 0, 0, 1};
+  scene.materials[0].emissive = {300, 200, 100};  // cd/m²
+  scene.ambient_is_set = true;
+  const LayeredImage image =
+      draw(std::move(scene), wall_view(), settings_of(4, ShadingModel::pbr, {Layer::luminance}));
+  EXPECT_NEAR(at(image, "luminance.Y", 2, 2), 0.2126 * 300 + 0.7152 * 200 + 0.0722 * 100, 1e-3);
+}
+
+TEST(Conventions, D12_PixelDensityIsPixelsPerMetreWhereTheyAreSparsest) {
+  Light light = light_of(LightType::projector, 1);
+  light.projection = {false, -0.2, 0.2, -0.1, 0.1, 0.1, 100};  // 2 m × 1 m on a wall 5 m away
+  light.aspect_from_slide = false;
+  light.panel_width = 1000;
+  light.panel_height = 400;
+  Scene scene = wall_scene();
+  add_light(scene, light, {0, 0, 5}, {0, 0, 0});
+  const std::string name = "pixel_density." + light.name;
+  const LayeredImage image =
+      draw(std::move(scene), wall_view(), settings_of(5, ShadingModel::papers, {Layer::pixel_density}));
+  EXPECT_NEAR(at(image, name, 2, 2), 400, 1e-3);
 }
 
 TEST(Conventions, D8_NIsTheShadingNormalOnTheSideThatIsSeen) {
@@ -798,6 +824,29 @@ TEST(Conventions, I6_AnIntensityMapIsCandelaPerDirection) {
     const WallPoint p = wall_point(x, 4, 9, 5);
     EXPECT_NEAR(at(image, "lux.Y", x, 4), 0.5 * 80 * p.cosine / (p.distance * p.distance), 1e-5);
   }
+}
+
+TEST(Conventions, I15_ColourTemperatureKeepsLuminance) {
+  for (const double kelvin : {1500.0, 2856.0, 9000.0}) {
+    Scene scene = wall_scene();
+    Light light = light_of(LightType::directional, 10);
+    light.color = color_of_temperature(kelvin);
+    EXPECT_NE(light.color.r, light.color.b);
+    add_light(scene, light, {0, 0, 5}, {0, 0, 0});
+    EXPECT_NEAR(at(draw_lux(scene, 4), "lux.Y", 2, 2), 10, 1e-5);
+  }
+}
+
+TEST(Conventions, I16_BlackLevelIsAFractionOfWhite) {
+  Light light = wall_projector(0);
+  light.intensity = 100;
+  light.black_level = 0.01;
+  Scene scene = projected_wall(light);
+  scene.pictures.push_back({});
+  scene.pictures[0].name = "black";
+  scene.pictures[0].pixels = std::make_shared<Image>(2, 2, 3, PixelType::u8, Transfer::srgb);
+  const LayeredImage image = draw_lux(std::move(scene), 9);
+  for (const float lux : image.find("lux.Y")->values) EXPECT_NEAR(lux, 0.01 * 100 / 25, 1e-6);
 }
 
 TEST(Conventions, I7_WhiteUnderOneLux) {
