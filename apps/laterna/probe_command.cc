@@ -107,7 +107,8 @@ void print_reading(const Probe& probe, const ProbeReport& report, const ProbeRea
   for (std::size_t i = 0; i < reading.lights.size(); ++i) {
     const ProbeReading::FromLight& light = reading.lights[i];
     if (reading.lights.size() < 2 && light.visibility == 1) continue;
-    fmt::print("{:>12.6g}      {}, {:.4g} of it arrives\n", light.lux, report.lights[i], light.visibility);
+    const std::string arrives = light.visibility > 0 ? fmt::format("{:.4g}", light.visibility) : "nothing";
+    fmt::print("{:>12.6g}      {}, {} of it arrives\n", light.lux, report.lights[i], arrives);
   }
 }
 

@@ -185,6 +185,17 @@ void advise_softness(const Scene& scene, ShadowTechnique for_all) {
   }
 }
 
+/// Only one model's numbers are candela per square metre.
+void advise_luminance(const RenderSettings& settings, const std::optional<FalseColorChoice>& false_color) {
+  const bool is_shown = std::ranges::find(settings.layers, Layer::luminance) != settings.layers.end() ||
+                        (false_color && false_color->layer == Layer::luminance);
+  if (!is_shown || settings.shading == ShadingModel::pbr) return;
+  fmt::print(
+      stderr,
+      "laterna: note: luminance is in cd/m² only with --shading pbr: in this model a white matt surface "
+      "under 1 lx is 1\n");
+}
+
 class RenderCommand {
  public:
   explicit RenderCommand(const RenderOptions& options) : options_(options) {}
@@ -218,6 +229,7 @@ class RenderCommand {
     const Result<View> view = options_.view.find(*renderer, {settings->width, settings->height});
     if (!view) return report(view.error());
     load_ms_ = elapsed(start);
+    advise_luminance(*settings, false_color_);
     return draw(*renderer, *view, *settings, *exposure);
   }
 
