@@ -12,6 +12,7 @@
 #include "base/task_pool.h"
 #include "base/triangle_clusters.h"
 #include "frame/cluster_builder.h"
+#include "frame/lamp_table.h"
 #include "frame/texture_library.h"
 #include "laterna/scene.h"
 
@@ -41,9 +42,10 @@ struct PlacedLight {
   const Light* light = nullptr;
   int node = -1;
   Pose pose;
-  View view;                               ///< projector: its frustum, with the slide's aspect
-  double intensity = 0;                    ///< candela on the axis, or lux: what `lumens` comes to
+  View view;             ///< projector: its frustum, with the slide's aspect
+  double intensity = 0;  ///< candela on the axis (lamps: at their peak), or lux: what `lumens` comes to
   const image::MipChain* slide = nullptr;  ///< null: plain white
+  const LampTable* lamp = nullptr;         ///< null: no measured lamp
 };
 
 struct PlacedCamera {
@@ -95,6 +97,7 @@ class Frame {
   std::vector<Surface> surfaces;          // scene materials, then glTF's default
   std::vector<std::string> object_names;  // one per instance of a mesh
   std::vector<PlacedLight> lights;
+  LampTables lamps;  // what lights refer to
   std::vector<PlacedCamera> cameras;
   Bounds bounds;
   bool has_blending = false;
