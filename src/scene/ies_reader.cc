@@ -113,7 +113,7 @@ class IesReader {
     const std::size_t horizontal =
         numbers.next_count("the number of horizontal angles", 1, kMaxLampAngles).value_or(0);
     const std::size_t type = numbers.next_count("the photometric type", 1, 3).value_or(1);
-    const std::size_t unit = numbers.next_count("the unit, 1 for feet and 2 for metres,", 1, 2).value_or(2);
+    const std::size_t unit = numbers.next_count("the unit (1 feet, 2 metres)", 1, 2).value_or(2);
     // LM-63 gives width, length and height: along Y, X and Z.
     const double width = number("the width", -kMostFactor, kMostFactor);
     const double length = number("the length", -kMostFactor, kMostFactor);
