@@ -77,8 +77,8 @@ double angle_from_axis(const LightDistribution& distribution);
 /// A section through the beam, a full turn.
 struct LampSection {
   double peak_cd = 0;
-  /// Full angles between the outermost directions that have at least 50 % and 10 % of the lamp's peak; none: this
-  /// section stays below.
+  /// Full angles between the outermost directions that have at least 50 % and 10 % of the lamp's peak, up to 90° from
+  /// the axis (where the peak lies behind, from the opposite of it); none: this section stays below.
   std::optional<double> beam_angle_deg, field_angle_deg;
 };
 struct LampSummary {

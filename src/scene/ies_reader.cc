@@ -60,6 +60,7 @@ class IesReader {
   }
 
   void add_to_name(std::string_view part) {
+    while (!part.empty() && (part.back() == ',' || part.back() == ' ')) part.remove_suffix(1);
     if (part.empty() || lamp_.luminaire.find(part) != std::string::npos) return;
     if (!lamp_.luminaire.empty()) lamp_.luminaire += ", ";
     lamp_.luminaire += part;

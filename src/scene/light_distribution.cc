@@ -95,7 +95,7 @@ glm::dvec3 section_direction(double from_axis_deg, double turn_deg) {
 // Between these angles from the axis a section is linear: the grid's own, on both sides, and its ends from outside.
 std::vector<double> section_corners(const LightDistribution& lamp) {
   constexpr double kBeyond = 1e-7;
-  std::set<double> corners = {-180, 0, 180};
+  std::set<double> corners = {-180, -90, 0, 90, 180};
   for (const std::vector<double>* angles : {&lamp.vertical_deg, &lamp.horizontal_deg}) {
     if (angles == &lamp.horizontal_deg && lamp.type == PhotometricType::type_c) continue;
     for (const double sign : {-1.0, 1.0}) {
@@ -135,6 +135,8 @@ LampSection section_of(const LightDistribution& lamp, double turn_deg, double pe
   }
   LampSection section;
   for (const auto& [angle, candela] : profile) section.peak_cd = std::max(section.peak_cd, candela);
+  // What a downlight throws at the ceiling is not its beam.
+  std::erase_if(profile, [](const auto& p) { return std::abs(p[0]) > 90; });
   section.beam_angle_deg = width_at(profile, kBeamShare * peak);
   section.field_angle_deg = width_at(profile, kFieldShare * peak);
   return section;

@@ -227,6 +227,10 @@ TEST(Lamps, BeamAndFieldAngles) {
     EXPECT_NEAR(section.field_angle_deg.value(), 90, 1e-5);
     EXPECT_NEAR(section.peak_cd, 1000, 1e-9);
   }
+  IesText ceiling = tent;  // the same, and more than a tenth of it upward
+  ceiling.vertical = angles(0, 180, 19);
+  ceiling.candela = [](double v, double) { return v > 90 ? 300 : std::max(0.0, 1000 - 20 * v); };
+  EXPECT_NEAR(summarise(parse_or_fail(ceiling.text())).sections[0].field_angle_deg.value(), 90, 1e-5);
   IesText up = tent;  // the same, upward
   up.vertical = angles(90, 180, 10);
   up.candela = [](double v, double) { return std::max(0.0, 1000 - 20 * (180 - v)); };
