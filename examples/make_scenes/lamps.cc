@@ -1,5 +1,6 @@
 #include "lamps.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -68,9 +69,13 @@ Result<void> write_downlight(const std::filesystem::path& file) {
 }
 
 Result<void> write_wall_washer(const std::filesystem::path& file) {
+  // 38° from straight down, toward the wall.
+  constexpr double kAim = 38 * kDegree;
   const auto candela = [](double v, double h) {
-    const double side = 0.5 + 0.5 * std::cos((h - 90) * kDegree);  // 1 toward the wall
-    return (60 + 900 * std::pow(side, 3) * bell(v - 38, 22)) * std::max(0.0, std::cos(v * kDegree));
+    const double toward_aim = std::sin(v * kDegree) * std::sin(h * kDegree) * std::sin(kAim) +
+                              std::cos(v * kDegree) * std::cos(kAim);
+    const double from_aim = std::acos(std::clamp(toward_aim, -1.0, 1.0)) / kDegree;
+    return (60 + 900 * bell(from_aim, 24)) * std::max(0.0, std::cos(v * kDegree));
   };
   return write({"wall washer", range(0, 90, 5), range(90, 270, 15), candela}, file);
 }

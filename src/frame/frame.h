@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,11 +13,12 @@
 #include "base/task_pool.h"
 #include "base/triangle_clusters.h"
 #include "frame/cluster_builder.h"
-#include "frame/lamp_table.h"
 #include "frame/texture_library.h"
 #include "laterna/scene.h"
 
 namespace laterna::frame {
+
+struct LampTable;  // frame/lamp_table.h
 
 /// A picture as a material uses it.
 struct TextureBinding {
@@ -82,6 +84,11 @@ class Frame {
     return {x_ws.data(), y_ws.data(), z_ws.data(), corners.data(), clusters};
   }
   [[nodiscard]] std::size_t triangle_count() const;
+  /// Corner 0, 1 or 2 of a triangle.
+  [[nodiscard]] glm::vec3 corner_ws(TriangleId id, unsigned corner) const {
+    const std::size_t v = clusters[cluster_of(id)].first_vertex + (corners[id] >> (8 * corner) & 255U);
+    return {x_ws[v], y_ws[v], z_ws[v]};
+  }
 
   // Vertices, one entry per cluster vertex, readable 16 entries beyond the last.
   AlignedVector<float> x_ws, y_ws, z_ws;
@@ -97,7 +104,8 @@ class Frame {
   std::vector<Surface> surfaces;          // scene materials, then glTF's default
   std::vector<std::string> object_names;  // one per instance of a mesh
   std::vector<PlacedLight> lights;
-  LampTables lamps;  // what lights refer to
+  // What lights refer to; one per distribution, however many lights have it.
+  std::map<std::shared_ptr<const LightDistribution>, std::shared_ptr<const LampTable>> lamps;
   std::vector<PlacedCamera> cameras;
   Bounds bounds;
   bool has_blending = false;

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <memory>
 
 #include "base/aligned_vector.h"
 #include "laterna/lamps.h"
@@ -35,8 +33,5 @@ struct LampTable {
   double peak_candela = 0;
   double lumens = 0;
 };
-
-/// One per distribution, however many lights have it.
-using LampTables = std::map<std::shared_ptr<const LightDistribution>, std::shared_ptr<const LampTable>>;
 
 }  // namespace laterna::frame

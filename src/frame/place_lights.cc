@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/elementary.h"
+#include "frame/lamp_table.h"
 
 namespace laterna::frame {
 namespace {
@@ -31,9 +32,9 @@ double candela_of(const Light& light, const PlacedLight& placed) {
   return candela_from_lumens(*light.lumens, projection, beam_profile(light));
 }
 
-const LampTable* find_lamp(const Light& light, LampTables& lamps) {
+const LampTable* find_lamp(const Light& light, Frame& frame) {
   if (light.distribution == nullptr) return nullptr;
-  std::shared_ptr<const LampTable>& table = lamps[light.distribution];
+  std::shared_ptr<const LampTable>& table = frame.lamps[light.distribution];
   if (table == nullptr) table = std::make_shared<const LampTable>(*light.distribution);
   return table.get();
 }
@@ -53,7 +54,7 @@ PlacedLight place(const Light& light, int node, const Pose& pose, Frame& frame) 
     projection.right = middle + half_width;
   }
   placed.view = {pose, projection};
-  placed.lamp = find_lamp(light, frame.lamps);
+  placed.lamp = find_lamp(light, frame);
   placed.intensity = candela_of(light, placed);
   return placed;
 }

@@ -196,6 +196,12 @@ const SceneCase kSceneCases[] = {
        s.lights[0].distribution = lamp({0, 90}, {0, 360}, {1, 1});
      },
      "lights[0].distribution: expected 4 candela values, one for each pair of angles, got 2"},
+    {"LampTooBright",
+     [](Scene& s) {
+       s.lights[0].distribution = lamp({0, 90}, {0, 360}, {1, 1e12, 1, 1});
+       s.lights[0].intensity = 1e20;
+     },
+     "lights[0].distribution: its candela times the light's intensity are more than 1e+30"},
     {"LampDark",
      [](Scene& s) {
        s.lights[0].distribution = lamp({0, 90}, {0, 360}, {0, 0, 0, 0});
