@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "laterna/lamps.h"
 #include "outcome.h"
 #include "scene_options.h"
 
@@ -70,6 +71,13 @@ Json describe_light(const Light& light, const glm::dmat4& world) {
             {light.type == LightType::directional ? "lux" : "candela", light.intensity},
             {"enabled", light.enabled}};
   if (light.lumens) j["lumens"] = *light.lumens;
+  if (light.distribution != nullptr) {
+    const LampSummary lamp = summarise(*light.distribution);
+    const double scale = light.lumens ? *light.lumens / lamp.flux_lm : light.intensity;
+    j["ies"] = light.distribution->name;
+    j["candela"] = scale * lamp.peak_cd;
+    j["lumens"] = scale * lamp.flux_lm;
+  }
   return j;
 }
 

@@ -28,6 +28,7 @@ void declare_inspect(CLI::App& app, Run& run);
 void declare_false_color(CLI::App& app, Run& run);
 void declare_probe(CLI::App& app, Run& run);
 void declare_depthmap(CLI::App& app, Run& run);
+void declare_ies(CLI::App& app, Run& run);
 void declare_diff(CLI::App& app, Run& run);
 void declare_bench(CLI::App& app, Run& run);
 void declare_accuracy(CLI::App& app, Run& run);

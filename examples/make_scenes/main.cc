@@ -1,10 +1,11 @@
-// make_scenes FOLDER: writes the example scenes, slides and intensity maps of examples/scenes/. What it
+// make_scenes FOLDER: writes the example scenes, slides, intensity maps and lamps of examples/scenes/. What it
 // writes is committed; run it again after a change here.
 #include <cstdio>
 #include <filesystem>
 #include <string>
 
 #include "glb_file.h"
+#include "lamps.h"
 #include "pictures.h"
 #include "shapes.h"
 
@@ -213,5 +214,7 @@ int main(int argc, char** argv) {
   picture("beam.png", paint_beam(256, 128));
   picture("lake.png", paint_slide(768, 512));
   picture("star.png", paint_star(256));
+  is_good &= is_written(write_downlight(folder / "downlight.ies"), folder / "downlight.ies");
+  is_good &= is_written(write_wall_washer(folder / "wall_washer.ies"), folder / "wall_washer.ies");
   return is_good ? 0 : 4;
 }

@@ -24,6 +24,8 @@
 
 namespace laterna {
 
+struct LightDistribution;  // laterna/lamps.h
+
 // ---------------------------------------------------------------------------------------------- pictures in a scene
 
 /// A picture that a material or a projector uses: a file, encoded bytes, or pixels. Exactly one of the three is set.
@@ -129,10 +131,13 @@ struct Light {
   LightType type = LightType::point;
   bool enabled = true;
   glm::vec3 color{1};  ///< linear
-  /// Candela (point, spot, projector: on the axis) or lux (directional).
+  /// Candela (point, spot, projector: on the axis) or lux (directional); with a `distribution`, a factor on its candela.
   double intensity = 1;
-  /// Projector: luminous flux of the fully open frame; where set, `intensity` follows from it.
+  /// Luminous flux: of a projector's open frame, or of its whole intensity map; of a point light in all directions; of a
+  /// spot's cone; of all of a `distribution`. Where set, `intensity` follows from it.
   std::optional<double> lumens;
+  /// Point, spot: a measured lamp. Photometric zero is the light's −Z, C0 its +X, C90 its +Y. A spot's cone cuts it.
+  std::shared_ptr<const LightDistribution> distribution;
 
   Attenuation attenuation = Attenuation::inverse_square;
   double range = std::numeric_limits<double>::infinity();  ///< metres; gltf_windowed and linear

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@
 #include "laterna/scene.h"
 
 namespace laterna::frame {
+
+struct LampTable;  // frame/lamp_table.h
 
 /// A picture as a material uses it.
 struct TextureBinding {
@@ -41,9 +44,10 @@ struct PlacedLight {
   const Light* light = nullptr;
   int node = -1;
   Pose pose;
-  View view;                               ///< projector: its frustum, with the slide's aspect
-  double intensity = 0;                    ///< candela on the axis, or lux: what `lumens` comes to
+  View view;             ///< projector: its frustum, with the slide's aspect
+  double intensity = 0;  ///< candela on the axis (lamps: at their peak), or lux: what `lumens` comes to
   const image::MipChain* slide = nullptr;  ///< null: plain white
+  const LampTable* lamp = nullptr;         ///< null: no measured lamp
 };
 
 struct PlacedCamera {
@@ -100,6 +104,8 @@ class Frame {
   std::vector<Surface> surfaces;          // scene materials, then glTF's default
   std::vector<std::string> object_names;  // one per instance of a mesh
   std::vector<PlacedLight> lights;
+  // What lights refer to; one per distribution, however many lights have it.
+  std::map<std::shared_ptr<const LightDistribution>, std::shared_ptr<const LampTable>> lamps;
   std::vector<PlacedCamera> cameras;
   Bounds bounds;
   bool has_blending = false;

@@ -1,13 +1,45 @@
 #include "frame/place_lights.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/elementary.h"
+#include "frame/lamp_table.h"
 
 namespace laterna::frame {
 namespace {
 
-PlacedLight place(const Light& light, int node, const Pose& pose, const Frame& frame) {
+// What `lumens` come to, by what sends them.
+double candela_of(const Light& light, const PlacedLight& placed) {
+  if (placed.lamp != nullptr) {
+    // Scaled as a whole: the peak by as much as the flux.
+    return placed.lamp->peak_candela * (light.lumens ? *light.lumens / placed.lamp->lumens : light.intensity);
+  }
+  if (!light.lumens) return light.intensity;
+  switch (light.type) {
+    case LightType::point:
+      return *light.lumens / (4 * kPi);
+    case LightType::spot:
+      return *light.lumens / solid_angle_of_spot(light);
+    default:
+      break;
+  }
+  const Projection& projection = placed.view.projection;
+  if (light.slide_is_intensity && placed.slide != nullptr && !projection.is_orthographic) {
+    const double angle = solid_angle_of_map(*placed.slide, projection);
+    return angle > 0 ? *light.lumens / angle : 0;  // a black map throws nothing
+  }
+  return candela_from_lumens(*light.lumens, projection, beam_profile(light));
+}
+
+const LampTable* find_lamp(const Light& light, Frame& frame) {
+  if (light.distribution == nullptr) return nullptr;
+  std::shared_ptr<const LampTable>& table = frame.lamps[light.distribution];
+  if (table == nullptr) table = std::make_shared<const LampTable>(*light.distribution);
+  return table.get();
+}
+
+PlacedLight place(const Light& light, int node, const Pose& pose, Frame& frame) {
   PlacedLight placed;
   placed.light = &light;
   placed.node = node;
@@ -22,10 +54,8 @@ PlacedLight place(const Light& light, int node, const Pose& pose, const Frame& f
     projection.right = middle + half_width;
   }
   placed.view = {pose, projection};
-  placed.intensity = light.intensity;
-  if (light.type == LightType::projector && light.lumens) {
-    placed.intensity = candela_from_lumens(*light.lumens, projection, beam_profile(light));
-  }
+  placed.lamp = find_lamp(light, frame);
+  placed.intensity = candela_of(light, placed);
   return placed;
 }
 
@@ -41,6 +71,40 @@ BeamProfile beam_profile(const Light& light) {
 double solid_angle(const Projection& p) {
   return quarter_solid_angle(p.right, p.top) - quarter_solid_angle(p.left, p.top) -
          quarter_solid_angle(p.right, p.bottom) + quarter_solid_angle(p.left, p.bottom);
+}
+
+double solid_angle_of_spot(const Light& spot) {
+  // Between the cones the term is the square of what rises evenly with the cosine: a third of it on average. It rises
+  // over 0.001 where the cones lie closer (shade/illumination.cc).
+  const double outer = cosine(spot.outer_cone.in_radians());
+  const double rise = std::max(0.001, cosine(spot.inner_cone.in_radians()) - outer);
+  // Very narrow cones end before the term has risen.
+  const double within = std::min(rise, 1 - outer);
+  const double share = within / rise;
+  return 2 * kPi * (share * share * within / 3 + std::max(0.0, 1 - outer - rise));
+}
+
+double solid_angle_of_map(const image::MipChain& map, const Projection& p) {
+  // Levels are means over area: a few hundred cells to a side are as good as all texels.
+  constexpr int kEnoughCells = 256;
+  int level = 0;
+  while (level + 1 < map.level_count &&
+         std::max(map.levels[static_cast<std::size_t>(level)].width,
+                  map.levels[static_cast<std::size_t>(level)].height) > kEnoughCells)
+    ++level;
+  const image::MipLevel& size = map.levels[static_cast<std::size_t>(level)];
+  const double width = (p.right - p.left) / size.width, height = (p.top - p.bottom) / size.height;
+  double sum = 0;
+  for (int y = 0; y < size.height; ++y) {
+    const double top = p.top - y * height;
+    for (int x = 0; x < size.width; ++x) {
+      const double left = p.left + x * width;
+      const std::array<float, 4> value = image::texel(map, level, x, y);
+      const double luminance = 0.2126 * value[0] + 0.7152 * value[1] + 0.0722 * value[2];
+      sum += luminance * solid_angle({false, left, left + width, top - height, top, 1, 2});
+    }
+  }
+  return sum;
 }
 
 double candela_from_lumens(double lumens, const Projection& p, BeamProfile profile) {

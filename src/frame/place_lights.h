@@ -5,7 +5,7 @@
 
 namespace laterna::frame {
 
-/// Fills the frame's lights (enabled ones) and cameras, in node order.
+/// Fills the frame's lights (enabled ones) and cameras, in node order, and the tables of its lamps.
 void place_lights_and_cameras(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
                               Frame& frame);
 
@@ -19,5 +19,12 @@ double candela_from_lumens(double lumens, const Projection& projection, BeamProf
 
 /// Solid angle of a perspective frustum in steradians.
 double solid_angle(const Projection& projection);
+
+/// ∫ of a spot's angular term (KHR_lights_punctual) over all directions: lumens per candela on the axis.
+double solid_angle_of_spot(const Light& spot);
+
+/// ∫ of an intensity map over the directions of its frame, in steradians: lumens per candela at value 1. Of a coloured
+/// map its Rec. 709 luminance counts.
+double solid_angle_of_map(const image::MipChain& map, const Projection& projection);
 
 }  // namespace laterna::frame

@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "base/elementary.h"
+#include "laterna/lamps.h"
 #include "light/light_rays.h"
 
 namespace laterna::measure {
@@ -44,6 +45,10 @@ bool LitPixels::reaches(const glm::dvec3& point_ws) const {
   const double distance = glm::length(from_light);
   const double along = glm::dot(from_light, light_->pose.forward_ws());
   if (light.type == LightType::spot && along < distance * cosine(light.outer_cone.in_radians())) return false;
+  if (light.distribution != nullptr && distance > 0) {
+    const glm::dvec3 direction_ls = glm::transpose(light_->pose.world_from_view_rotation) * from_light;
+    if (candela_toward(*light.distribution, direction_ls) <= 0) return false;
+  }
   if (light.attenuation == Attenuation::gltf_windowed) return distance < light.range;
   if (light.attenuation == Attenuation::linear)
     return (light.type == LightType::point ? distance : along) < light.range;

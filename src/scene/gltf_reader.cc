@@ -9,6 +9,7 @@
 #include "scene/gltf_buffers.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_extension.h"
+#include "scene/gltf_lamps.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
@@ -25,8 +26,9 @@ namespace {
 // Hangs what the nodes refer to into the scene.
 class SceneBuilder {
  public:
-  SceneBuilder(const JsonDocument& json, Meshes& meshes, Accessors& accessors, FaultList& faults)
-      : json_(json), meshes_(meshes), accessors_(accessors), faults_(faults) {
+  SceneBuilder(const JsonDocument& json, Meshes& meshes, Accessors& accessors, Lamps& lamps,
+               FaultList& faults)
+      : json_(json), meshes_(meshes), accessors_(accessors), lamps_(lamps), faults_(faults) {
     JsonObject root(json, json.root(), faults);
     cameras_ = root.array("cameras");
     lights_ = find_lights(json, faults);
@@ -55,9 +57,33 @@ class SceneBuilder {
       if (light >= 0) node.light = add_light(lights_->children[static_cast<std::size_t>(light)], node.name);
     }
     scene_.nodes.push_back(std::move(node));
+    if (std::optional<Light> lamp = lamps_.read(*placed.json))
+      hang_lamp(std::move(*lamp), static_cast<int>(scene_.nodes.size()) - 1);
   }
 
-  Scene take() { return std::move(scene_); }
+  // A node that has a light already gets its lamp as a child, once all nodes of the file have their numbers.
+  void hang_lamp(Light lamp, int node) {
+    const std::string& node_name = scene_.nodes[static_cast<std::size_t>(node)].name;
+    const std::size_t index = scene_.lights.size();
+    lamp.name = name_for(lamp.name, node_name, fmt::format("light {}", index + 1), light_names_);
+    scene_.lights.push_back(std::move(lamp));
+    if (scene_.nodes[static_cast<std::size_t>(node)].light < 0) {
+      scene_.nodes[static_cast<std::size_t>(node)].light = static_cast<int>(index);
+    } else {
+      lamps_of_lit_nodes_.push_back({static_cast<int>(index), node});
+    }
+  }
+
+  Scene take() {
+    for (const LampOfLitNode& lamp : lamps_of_lit_nodes_) {
+      Node node;
+      node.name = scene_.lights[static_cast<std::size_t>(lamp.light)].name;
+      node.parent = lamp.parent;
+      node.light = lamp.light;
+      scene_.nodes.push_back(std::move(node));
+    }
+    return std::move(scene_);
+  }
 
  private:
   // The thing's own name; where that is missing or belongs to another node already, the node's.
@@ -89,7 +115,12 @@ class SceneBuilder {
   const JsonDocument& json_;
   Meshes& meshes_;
   Accessors& accessors_;
+  Lamps& lamps_;
   FaultList& faults_;
+  struct LampOfLitNode {
+    int light, parent;
+  };
+  std::vector<LampOfLitNode> lamps_of_lit_nodes_;
   const JsonValue* cameras_ = nullptr;
   const JsonValue* lights_ = nullptr;
   UniqueNames camera_names_, light_names_;
@@ -111,7 +142,8 @@ Result<Scene> read_document(const JsonDocument& json, const Container& container
   Materials materials(json, textures, faults);
   Meshes meshes(json, buffers, accessors, materials, faults);
   const std::vector<PlacedNode> placed = placed_nodes(json, faults);
-  SceneBuilder builder(json, meshes, accessors, faults);
+  Lamps lamps(json, buffers, folder, faults);
+  SceneBuilder builder(json, meshes, accessors, lamps, faults);
   for (const PlacedNode& node : placed) builder.add(node);
   if (faults.has_errors()) return failure(faults);
   Scene scene = builder.take();

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "base/elementary.h"
 #include "laterna/image.h"
+#include "laterna/lamps.h"
 #include "laterna/light_color.h"
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
@@ -70,6 +72,7 @@ class LightReader {
     if (object_.has("name") && light_.name.empty()) object_.error("name", "is empty");
     light_.enabled = object_.boolean("enabled").value_or(true);
     read_color();
+    read_lamp();
     read_place();
     read_brightness();
     read_source();
@@ -96,41 +99,68 @@ class LightReader {
       light_.color *= transmission(**gel);
   }
 
+  // A measured lamp says itself how bright it is and where it shines.
+  void read_lamp() {
+    const std::optional<std::string> name = object_.string("ies");
+    if (!object_.has("ies")) return;
+    if (light_.type != LightType::point && light_.type != LightType::spot)
+      return object_.error(
+          "ies", fmt::format("only point and spot lights have one, not a {}", name_of(light_.type)));
+    if (!name) return;
+    const auto path = resolve_typed_file(folder_, *name);
+    if (!path) return object_.error("ies", path.error());
+    Result<LightDistribution> lamp = read_lamp_file(*path);
+    if (!lamp) return object_.error("ies", to_string(lamp.error()));
+    light_.distribution = std::make_shared<const LightDistribution>(std::move(*lamp));
+  }
+
   void read_place() {
-    if (light_.type == LightType::point) {
+    const bool is_lamp = object_.has("ies");
+    if (light_.type == LightType::point && !(is_lamp && object_.has("target"))) {
       object_.require("position");
+      // A lamp hangs, if nothing else is said.
+      if (is_lamp) world_from_light_ = downward();
       const auto position = object_.numbers<3>("position", kCoordinate);
       if (position) world_from_light_[3] = glm::dvec4((*position)[0], (*position)[1], (*position)[2], 1);
     } else if (const std::optional<glm::dmat4> pose = read_pose(object_)) {
       world_from_light_ = *pose;
     }
+    // Photometry of types A and B has its vertical angles toward the light's +X (EXT_lights_ies); who aims a floodlight
+    // means them upward.
+    if (light_.distribution != nullptr && light_.distribution->type != PhotometricType::type_c) {
+      const glm::dvec4 right = world_from_light_[0], up = world_from_light_[1];
+      world_from_light_[0] = up;
+      world_from_light_[1] = -right;
+    }
   }
 
-  // Each type has one unit (the projector two); the others are named as what they are, not as unknown keys.
+  // Looking down, with the light's up toward −Z, as on a map with north up.
+  static glm::dmat4 downward() { return {{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}; }
+
+  // Each type has its units; the others are named as what they are, not as unknown keys.
   void read_brightness() {
-    const bool is_sun = light_.type == LightType::directional,
-               is_projector = light_.type == LightType::projector;
-    const std::string_view right = is_sun         ? "\"lux\""
-                                   : is_projector ? "\"candela\" or \"lumens\""
-                                                  : "\"candela\"";
+    const bool is_sun = light_.type == LightType::directional, is_lamp = object_.has("ies");
+    const std::string_view right = is_sun    ? "\"lux\""
+                                   : is_lamp ? "its file, \"lumens\" or \"scale\""
+                                             : "\"candela\" or \"lumens\"";
     for (const std::string_view name :
-         {"lux", "candela", "lumens", "intensity", "luminance", "power", "watts"}) {
+         {"lux", "candela", "lumens", "scale", "intensity", "luminance", "power", "watts"}) {
       const bool is_right = name == "lux"       ? is_sun
-                            : name == "candela" ? !is_sun
-                                                : name == "lumens" && is_projector;
+                            : name == "candela" ? !is_sun && !is_lamp
+                            : name == "scale"   ? is_lamp
+                                                : name == "lumens" && !is_sun;
       if (is_right || !object_.has(name)) continue;
       object_.any(name);
-      object_.error(name, fmt::format("the brightness of a {} is given in {}", name_of(light_.type), right));
+      object_.error(name,
+                    fmt::format("the brightness of a {} is given in {}",
+                                is_lamp ? std::string_view("measured lamp") : name_of(light_.type), right));
     }
-    if (is_sun) {
-      light_.intensity = object_.number("lux", kAmountOfLight).value_or(1);
-      return;
-    }
-    light_.intensity = object_.number("candela", kAmountOfLight).value_or(1);
-    if (!is_projector) return;
+    const std::string_view key = is_sun ? "lux" : is_lamp ? "scale" : "candela";
+    light_.intensity = object_.number(key, kAmountOfLight).value_or(1);
+    if (is_sun) return;
     light_.lumens = object_.number("lumens", kAmountOfLight);
-    if (light_.lumens && object_.has("candela"))
-      object_.error("lumens", "give either candela or lumens, not both");
+    if (light_.lumens && object_.has(key))
+      object_.error("lumens", fmt::format("give either {} or lumens, not both", key));
   }
 
   void read_source() {
@@ -191,6 +221,8 @@ class LightReader {
 
   void read_spot() {
     read_attenuation();
+    if (light_.distribution != nullptr && !object_.has("inner_cone_deg") && !object_.has("outer_cone_deg"))
+      return widen_to_lamp();
     const double inner = object_.number("inner_cone_deg", kHalfAngle).value_or(0);
     const double outer = object_.number("outer_cone_deg", kHalfAngle).value_or(45);
     if (inner > outer) {
@@ -199,6 +231,20 @@ class LightReader {
     }
     light_.inner_cone = Angle::degrees(inner);
     light_.outer_cone = Angle::degrees(outer);
+  }
+
+  // Without a cone of its own a spot shines as far as its lamp does. Beyond a right angle no cone reaches: then it is a
+  // point light, aimed.
+  void widen_to_lamp() {
+    constexpr double kRise = 0.002;  // of the cosine, from the outer cone to full light
+    const double widest = angle_from_axis(*light_.distribution);
+    const double inner = cosine(Angle::degrees(widest).in_radians());
+    if (inner < kRise) {
+      light_.type = LightType::point;
+      return;
+    }
+    light_.inner_cone = Angle::degrees(widest);
+    light_.outer_cone = Angle::radians(arccosine(inner - kRise));
   }
 
   void read_projector() {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "laterna/lamps.h"
 #include "laterna/scene.h"
 #include "scene/fault_list.h"
 #include "scene/normals.h"
@@ -92,6 +93,7 @@ class Validator {
   void check_lights();
   void check_light(const Light& light, const std::string& place);
   void check_panel(const Light& light, const std::string& place);
+  void check_distribution(const Light& light, const std::string& place);
   void check_source(const Light& light, const std::string& place);
   void check_shadow(const ShadowSettings& shadow, const std::string& place);
   void check_plane(const ShadowPlane& plane, const std::string& place);
@@ -284,9 +286,10 @@ void Validator::check_light(const Light& light, const std::string& place) {
   }
   if (light.lumens) {
     check_number(place + ".lumens", *light.lumens, 0, kEndless);
-    if (light.type != LightType::projector)
-      fault(place + ".lumens", "only a projector's brightness is given in lumens");
+    if (light.type == LightType::directional)
+      fault(place + ".lumens", "a directional light's brightness is not given in lumens");
   }
+  check_distribution(light, place + ".distribution");
   if (!(light.range > 0))
     fault(place + ".range", fmt::format("expected a number greater than 0, got {}", light.range));
   if (light.attenuation == Attenuation::custom && !light.custom_attenuation) {
@@ -335,6 +338,21 @@ void Validator::check_panel(const Light& light, const std::string& place) {
     fault(place + ".panel_height", fmt::format("expected a width and a height, or neither, got {} x {}",
                                                light.panel_width, light.panel_height));
   }
+}
+
+void Validator::check_distribution(const Light& light, const std::string& place) {
+  if (light.distribution == nullptr) return;
+  if (light.type != LightType::point && light.type != LightType::spot)
+    fault(place, "only point and spot lights have one");
+  std::string message = find_fault(*light.distribution);
+  if (message.empty() && light.lumens && luminous_flux(*light.distribution) <= 0)
+    message = "is dark: it cannot be scaled to lumens";
+  constexpr double kMaxCandela = 1e30;
+  if (message.empty() && light.intensity * *std::max_element(light.distribution->candela.begin(),
+                                                             light.distribution->candela.end()) >
+                             kMaxCandela)
+    message = fmt::format("its candela times the light's intensity are more than {}", kMaxCandela);
+  if (!message.empty()) fault(place, std::move(message));
 }
 
 void Validator::check_source(const Light& light, const std::string& place) {

@@ -27,6 +27,7 @@ BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterVie
     : light(placed.light),
       inverse_range(std::isinf(placed.light->range) ? 0.0F : static_cast<float>(1 / placed.light->range)),
       is_papers(model == ShadingModel::papers),
+      lamp(placed.lamp),
       homogeneous(shadow::homogeneous_row(ray)),
       is_orthographic(placed.view.projection.is_orthographic),
       is_flat_field(frame::beam_profile(*placed.light) == BeamProfile::flat_field),
@@ -37,6 +38,8 @@ BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterVie
     color[i] = static_cast<float>(light->color[i] * (is_papers ? 1.0 : placed.intensity));
     position_ws[i] = static_cast<float>(placed.pose.position_ws[i]);
     forward_ws[i] = static_cast<float>(placed.pose.forward_ws()[i]);
+    right_ws[i] = static_cast<float>(placed.pose.right_ws()[i]);
+    up_ws[i] = static_cast<float>(placed.pose.up_ws()[i]);
   }
   if (light->type == LightType::spot) {
     // KHR_lights_punctual, "Inner and Outer Cone Angles".

@@ -17,12 +17,16 @@ namespace laterna::shade {
 /// A light bound to the rays of the samples it will shine on. What the kernels read.
 struct BoundLight {
   const Light* light = nullptr;
-  float color[3];  // linear colour × candela or lux; papers: colour alone
+  float color[3];  // linear colour × candela (lamps: of their peak) or lux; papers: colour alone
   float position_ws[3];
   float forward_ws[3];                    // along the light's axis, away from it
   float cone_scale = 0, cone_offset = 1;  // KHR_lights_punctual's angular term
   float inverse_range = 0;                // 0: unlimited
   bool is_papers = false;
+
+  // Measured lamps.
+  const frame::LampTable* lamp = nullptr;
+  float right_ws[3], up_ws[3];
 
   // Projectors.
   shadow::ProjectedView slide_position;  // (s, t), (0, 0) the slide's top-left corner

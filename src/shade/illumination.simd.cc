@@ -12,6 +12,7 @@
 #include "base/vectors-inl.h"
 #include "image/texture_lookup-inl.h"
 #include "shade/illumination.h"
+#include "shade/lamp_lookup-inl.h"
 #include "shadow/projected_view-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -85,6 +86,11 @@ HWY_INLINE Arriving FromPoint(const BoundLight& light, const Vector3& p) {
     const auto cosine = Dot(direction, Splat3(light.forward_ws));
     const auto angular = Saturate(cosine * Splat(light.cone_scale) + Splat(light.cone_offset));
     intensity = intensity * (angular * angular);
+  }
+  if (light.lamp != nullptr) {
+    const Vector3 direction_ls = {Dot(direction, Splat3(light.right_ws)), Dot(direction, Splat3(light.up_ws)),
+                                  Dot(direction, Splat3(light.forward_ws))};
+    intensity = intensity * LampShare(*light.lamp, direction_ls);
   }
   return {Splat3(light.color) * intensity, direction * Splat(-1.0F), intensity > Splat(0.0F)};
 }

@@ -154,17 +154,39 @@ const RigCase kRigCases[] = {
      "r.json: line 1: lights[0].position: is missing\n"
      "r.json: line 1: lights[0].positon: a point light has no key \"positon\" (did you mean \"position\"?)"},
     {"IntensityHasNoUnit", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"intensity\": 5}]}",
-     "r.json: line 1: lights[0].intensity: the brightness of a point light is given in \"candela\""},
+     "r.json: line 1: lights[0].intensity: the brightness of a point light is given in \"candela\" or "
+     "\"lumens\""},
     {"SunInCandela",
      "{\"lights\": [{\"type\": \"directional\", \"position\": [0,1,0], \"target\": [0,0,0],\n\"candela\": "
      "5}]}",
      "r.json: line 2: lights[0].candela: the brightness of a directional light is given in \"lux\""},
     {"BulbInLux", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"lux\": 5}]}",
-     "r.json: line 1: lights[0].lux: the brightness of a point light is given in \"candela\""},
+     "r.json: line 1: lights[0].lux: the brightness of a point light is given in \"candela\" or "
+     "\"lumens\""},
     {"ProjectorInWatts",
      "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
      "\"watts\": 5}]}",
      "r.json: line 1: lights[0].watts: the brightness of a projector is given in \"candela\" or \"lumens\""},
+    {"LampOfAProjector",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"ies\": \"a.ies\"}]}",
+     "r.json: line 1: lights[0].ies: only point and spot lights have one, not a projector"},
+    {"LampMissing", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0],\n\"ies\": \"a.ies\"}]}",
+     "r.json: line 2: lights[0].ies: \"a.ies\" not found (tried \"a.ies\")"},
+    {"LampIsAPicture",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0],\n\"ies\": \"slide.png\"}]}",
+     "r.json: line 2: lights[0].ies: slide.png: line 1: no lamp file: expected IES LM-63, with a line that "
+     "begins with "
+     "TILT=, or EULUMDAT"},
+    {"LampInCandela",
+     "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"ies\": 7,\n\"candela\": 5}]}",
+     "r.json: line 1: lights[0].ies: expected a string, got 7\n"
+     "r.json: line 2: lights[0].candela: the brightness of a measured lamp is given in its file, \"lumens\" "
+     "or "
+     "\"scale\""},
+    {"ScaleOfABulb", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"scale\": 5}]}",
+     "r.json: line 1: lights[0].scale: the brightness of a point light is given in \"candela\" or "
+     "\"lumens\""},
     {"CandelaAndLumens",
      "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
      "\"lumens\": 5, \"candela\": 5}]}",

@@ -5,10 +5,21 @@
 #include <limits>
 #include <span>
 
+#include "laterna/lamps.h"
 #include "laterna/scene.h"
 
 namespace laterna {
 namespace {
+
+std::shared_ptr<const LightDistribution> lamp(std::vector<double> vertical_deg,
+                                              std::vector<double> horizontal_deg,
+                                              std::vector<double> candela) {
+  LightDistribution distribution;
+  distribution.vertical_deg = std::move(vertical_deg);
+  distribution.horizontal_deg = std::move(horizontal_deg);
+  distribution.candela = std::move(candela);
+  return std::make_shared<const LightDistribution>(std::move(distribution));
+}
 
 struct SceneCase {
   const char* name;
@@ -155,8 +166,54 @@ const SceneCase kSceneCases[] = {
      "lights[1].black_level: expected a number from 0 to 1, got nan"},
     {"PanelOfNoHeight", [](Scene& s) { s.lights[1].panel_width = 1920; },
      "lights[1].panel_height: expected a width and a height, or neither, got 1920 x 0"},
-    {"LumensOfABulb", [](Scene& s) { s.lights[0].lumens = 5; },
-     "lights[0].lumens: only a projector's brightness is given in lumens"},
+    {"LumensOfTheSun",
+     [](Scene& s) {
+       s.lights[0].type = LightType::directional;
+       s.lights[0].lumens = 5;
+     },
+     "lights[0].lumens: a directional light's brightness is not given in lumens"},
+    {"LampOfAProjector",
+     [](Scene& s) {
+       s.lights[1].distribution = lamp({0, 90}, {0, 360}, {1, 1, 1, 1});
+     },
+     "lights[1].distribution: only point and spot lights have one"},
+    {"LampWithoutAngles",
+     [](Scene& s) {
+       s.lights[0].distribution = lamp({}, {0, 360}, {});
+     },
+     "lights[0].distribution: expected 2 to 40000 vertical angles, got 0"},
+    {"LampGoesBack",
+     [](Scene& s) {
+       s.lights[0].distribution = lamp({0, 50, 40}, {0, 360}, {});
+     },
+     "lights[0].distribution: vertical angle 3: expected more than the 50 degrees before it, got 40"},
+    {"LampNotAllRound",
+     [](Scene& s) {
+       s.lights[0].distribution = lamp({0, 90}, {0, 180}, {1, 1, 1, 1});
+     },
+     "lights[0].distribution: horizontal angles: expected a full turn from 0 to 360 degrees, got 0 to 180"},
+    {"LampNegative",
+     [](Scene& s) {
+       s.lights[0].distribution = lamp({0, 90}, {0, 360}, {1, 1, -1, 1});
+     },
+     "lights[0].distribution: candela value 3: expected from 0 to 1e12, got -1"},
+    {"LampTooShort",
+     [](Scene& s) {
+       s.lights[0].distribution = lamp({0, 90}, {0, 360}, {1, 1});
+     },
+     "lights[0].distribution: expected 4 candela values, one for each pair of angles, got 2"},
+    {"LampTooBright",
+     [](Scene& s) {
+       s.lights[0].distribution = lamp({0, 90}, {0, 360}, {1, 1e12, 1, 1});
+       s.lights[0].intensity = 1e20;
+     },
+     "lights[0].distribution: its candela times the light's intensity are more than 1e+30"},
+    {"LampDark",
+     [](Scene& s) {
+       s.lights[0].distribution = lamp({0, 90}, {0, 360}, {0, 0, 0, 0});
+       s.lights[0].lumens = 1;
+     },
+     "lights[0].distribution: is dark: it cannot be scaled to lumens"},
     {"LumensNegative", [](Scene& s) { s.lights[1].lumens = -5; },
      "lights[1].lumens: expected a finite number of at least 0, got -5"},
     {"SpotCones",

@@ -10,6 +10,7 @@
 #include <regex>
 #include <set>
 
+#include "laterna/lamps.h"
 #include "laterna/light_color.h"
 #include "laterna/measure.h"
 #include "laterna/render.h"
@@ -973,6 +974,91 @@ Scene half_shadowed_wall(Light light) {
   scene.nodes.back().parent_from_node[3] = {-2, 0, 1, 1};
   scene.nodes.back().visible = false;
   return scene;
+}
+
+// ------------------------------------------------------------------------------------------------ measured lamps
+
+// 10 cd at photometric zero; sideways 40 cd along C0, 80 along C90, 120 along C180, 160 along C270.
+LightDistribution four_sided_lamp() {
+  LightDistribution lamp;
+  lamp.vertical_deg = {0, 90};
+  lamp.horizontal_deg = {0, 90, 180, 270, 360};
+  lamp.candela = {10, 40, 10, 80, 10, 120, 10, 160, 10, 40};
+  return lamp;
+}
+
+Light lamp_light() {
+  Light light = light_of(LightType::point, 1);
+  light.distribution = std::make_shared<const LightDistribution>(four_sided_lamp());
+  return light;
+}
+
+TEST(Conventions, B1_ALampsZeroIsMinusZAndC0PlusX) {
+  // 45° to each side of the axis of a lamp 2 m before the wall: the mean of both ends of the section.
+  const LayeredImage image = [] {
+    Scene scene = wall_scene();
+    add_light(scene, lamp_light(), {0, 0, 2}, {0, 0, 0});
+    return draw_lux(scene, 9);
+  }();
+  const auto candela = [&](int x, int y) {
+    const WallPoint p = wall_point(x, y, 9, 2);
+    return at(image, "lux.Y", x, y) * p.distance * p.distance / p.cosine;
+  };
+  EXPECT_NEAR(candela(4, 4), 10, 1e-3);
+  const double share = std::atan(wall_position(8, 9) / 2) / (kPi / 2);
+  EXPECT_NEAR(candela(8, 4), 10 + 30 * share, 1e-3);
+  EXPECT_NEAR(candela(4, 0), 10 + 70 * share, 1e-3);
+  EXPECT_NEAR(candela(0, 4), 10 + 110 * share, 1e-3);
+  EXPECT_NEAR(candela(4, 8), 10 + 150 * share, 1e-3);
+}
+
+TEST(Conventions, B2_ALampInARigHangs) {
+  const TemporaryFolder folder;
+  folder.write("lamp.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n10 5\n");
+  const Scene scene = testing_scenes::load_or_fail(
+      {}, {.rigs = {folder.write(
+               "rig.json", R"({"lights": [{"type": "point", "position": [1, 2, 3], "ies": "lamp.ies"}]})")}});
+  const Pose pose = Pose::from_matrix(scene.nodes.at(0).parent_from_node).value();
+  EXPECT_EQ(pose.forward_ws(), glm::dvec3(0, -1, 0));
+  EXPECT_EQ(pose.right_ws(), glm::dvec3(1, 0, 0));
+  EXPECT_EQ(pose.position_ws, glm::dvec3(1, 2, 3));
+}
+
+TEST(Conventions, B3_ALampsCandelaAreItsFilesTimesItsIntensity) {
+  for (const double scale : {1.0, 2.5}) {
+    Scene scene = wall_scene();
+    Light light = lamp_light();
+    light.intensity = scale;
+    add_light(scene, light, {0, 0, 2}, {0, 0, 0});
+    EXPECT_NEAR(at(draw_lux(scene, 9), "lux.Y", 4, 4), scale * 10 / 4, 1e-5);
+  }
+}
+
+TEST(Conventions, B4_LumensAreTheWholeFlux) {
+  const auto on_axis = [](Light light) {
+    light.lumens = 600;
+    Scene scene = wall_scene();
+    add_light(scene, light, {0, 0, 2}, {0, 0, 0});
+    return at(draw_lux(scene, 9), "lux.Y", 4, 4) * 4;  // candela
+  };
+  EXPECT_NEAR(on_axis(lamp_light()), 10 * 600 / luminous_flux(four_sided_lamp()), 1e-3);
+  EXPECT_NEAR(on_axis(light_of(LightType::point, 1)), 600 / (4 * kPi), 1e-3);
+  // Between 10° and 30° the cone's light falls as the square of a share of the cosines: a third of it is left on average.
+  Light spot = light_of(LightType::spot, 1);
+  spot.inner_cone = Angle::degrees(10), spot.outer_cone = Angle::degrees(30);
+  const double inner = std::cos(kPi / 18), outer = std::cos(kPi / 6);
+  EXPECT_NEAR(on_axis(spot), 600 / (2 * kPi * (1 - inner + (inner - outer) / 3)), 1e-2);
+  // Half the frame at 1, half at 0, of a frame of 0.4 × 0.4 by tangents: half its solid angle.
+  Scene scene = wall_scene();
+  Light map = wall_projector(
+      reference::add_linear_picture(scene, 4, 4, [](int x, int) { return glm::vec3(x < 2 ? 1.0F : 0.0F); }));
+  map.slide_is_intensity = true;
+  map.lumens = 600;
+  add_light(scene, map, {0, 0, 5}, {0, 0, 0});
+  const double solid_angle = 4 * std::atan(0.16 / std::sqrt(1 + 0.16 + 0.16));
+  const WallPoint p = wall_point(2, 4, 9, 5);
+  EXPECT_NEAR(at(draw_lux(scene, 9), "lux.Y", 2, 4),
+              600 / (solid_angle / 2) * p.cosine / (p.distance * p.distance), 1e-2);
 }
 
 TEST(Conventions, H1_VisibilityIsTheFractionThatArrives) {
