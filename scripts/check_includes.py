@@ -35,6 +35,8 @@ PUBLIC_HEADERS = {
     "measure.h": "measure",
     "output.h": "base",
     "render.h": "render",
+    "photograph_files.h": "scene",
+    "photographs.h": "scene",
     "result.h": "base",
     "sampler.h": "image",
     "scene.h": "scene",

@@ -52,6 +52,12 @@ struct PlacedCamera {
   Pose pose;
 };
 
+/// A photograph with its picture found.
+struct PlacedPhotograph {
+  const Photograph* photograph = nullptr;
+  const image::MipChain* picture = nullptr;
+};
+
 /// Streams that not every cluster has; kNoStream where it is missing, otherwise the index of its first vertex.
 struct ClusterStreams {
   std::uint32_t normal = 0, uv[2] = {0, 0}, color = 0, tangent = 0;
@@ -96,6 +102,7 @@ class Frame {
   std::vector<std::string> object_names;  // one per instance of a mesh
   std::vector<PlacedLight> lights;
   std::vector<PlacedCamera> cameras;
+  std::vector<PlacedPhotograph> photographs;
   Bounds bounds;
   bool has_blending = false;
   bool has_blended_casters = false;

@@ -8,6 +8,7 @@
 #include "frame/frame.h"
 #include "raster/tile_raster.h"
 #include "shade/illumination.h"
+#include "shade/photograph_painter.h"
 #include "shadow/surface_samples.h"
 
 namespace laterna::shade {
@@ -20,6 +21,7 @@ struct WantedLayers {
   bool lux = false;
   bool geometry = false;  // depth, position, normal, object
   bool albedo = false;
+  bool photographs = false;
   bool passes = false;  // Passes::multi: the frame buffer after each pass
 };
 
@@ -42,6 +44,9 @@ struct TileResult {
   TilePlane lux;
   TilePlane depth;  // metres along the axis, +infinity where nothing is
   TileColor position, normal, albedo;
+  TilePlane photographs_seen;               // how many see the sample, −1 where nothing is
+  std::vector<TilePlane> photograph_share;  // per photograph: of the sample's colour
+  std::vector<TileColor> photograph_color;  // before gain, NaN where the photograph does not see the sample
   std::array<std::uint32_t, raster::kTilePixels>
       object;  // index of the frame's object, kNoObject where nothing is
 };
@@ -58,6 +63,7 @@ class TileLayers {
   void start_tile();
   /// Depth, position, normal, object, albedo.
   void store_geometry(const shadow::SurfaceSamples& samples, const SurfacePoints& points);
+  void store_photographs(const shadow::SurfaceSamples& samples, const PhotographPainter& painter);
   void add_visibility(std::size_t light, const shadow::SurfaceSamples& samples,
                       const shadow::Arrival& arrival);
   void store_slide_coordinates(std::size_t light, const shadow::SurfaceSamples& samples,
