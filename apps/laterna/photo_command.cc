@@ -179,9 +179,13 @@ class PhotoCommand {
   }
 
   Result<View> find_view(const Renderer& renderer) {
-    if (o_.from.empty()) return o_.view.find(renderer, size_);
-    const int index = index_of(all_, o_.from);
-    if (index < 0) return tl::unexpected(no_photograph(all_, "--from", o_.from));
+    const bool has_camera = !o_.view.camera.empty() || !renderer.scene().cameras.empty();
+    if (o_.from.empty() && has_camera) return renderer.camera_view(o_.view.camera, size_.width, size_.height);
+    const std::string& from = o_.from.empty() ? all_.front().name : o_.from;
+    if (o_.from.empty())
+      fmt::print(stderr, "laterna: note: the scene has no camera: looking from where {} was taken\n", from);
+    const int index = index_of(all_, from);
+    if (index < 0) return tl::unexpected(no_photograph(all_, "--from", from));
     const Photograph& photograph = all_[static_cast<std::size_t>(index)];
     View view{photograph.pose, photograph.projection};
     if (!o_.view.size.empty()) return with_aspect(view, static_cast<double>(size_.width) / size_.height);

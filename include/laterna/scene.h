@@ -212,8 +212,7 @@ struct Scene {
   bool ambient_is_set = false;  ///< by a rig; otherwise the renderer may choose one for a scene without light
   std::optional<glm::vec3> background;  ///< linear radiance; unset: black, alpha 0
   std::optional<PhongHighlight> phong;
-  std::vector<Photograph>
-      photographs;  ///< where there are any, surfaces show them in place of their own colours
+  std::vector<Photograph> photographs;  ///< where there are any, surfaces show their colours
   PhotographSettings photograph_settings;
   std::vector<Diagnostic> warnings;  ///< what was left out or guessed while reading
 };

@@ -121,9 +121,10 @@ class Transcriber {
 
   void block(std::size_t indent, int depth) {
     if (depth > kMaxDepth) return fail(fmt::format("is nested deeper than {}", kMaxDepth));
-    if (begins_item(lines_[at_].text)) {
+    const std::string_view text = lines_[at_].text;
+    if (begins_item(text)) {
       sequence(indent, depth);
-    } else if (find_colon(lines_[at_].text) != std::string_view::npos) {
+    } else if (text.front() != '[' && text.front() != '{' && find_colon(text) != std::string_view::npos) {
       mapping(indent, depth);
     } else {
       value(indent, depth);
