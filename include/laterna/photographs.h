@@ -25,7 +25,7 @@ struct Photograph {
 };
 
 /// Which of several photographs counts for a surface. All weigh by resolution and angle: w = (ρ cos θ)², ρ the photograph's
-/// pixels per square metre of surface and θ the angle between the surface's normal and the way to the camera.
+/// pixels per square metre of surface and θ the angle between the shading normal and the way to the camera.
 enum class PhotographBlend : std::uint8_t {
   surface,  ///< nothing else counts: the colours of a surface stay when the camera moves
   /// As well by how near the photograph's direction of view is to the picture's (Debevec, Taylor and Malik, Modeling and

@@ -101,7 +101,8 @@ HWY_INLINE FloatVector WeightOf(const BoundPhotograph& photograph, const shadow:
                                 const SurfacePoints& points, std::size_t i) {
   const Vector3 to_camera =
       Splat3(photograph.position_ws) - Load3(samples.x_ws, samples.y_ws, samples.z_ws, i);
-  const Vector3 normal = Load3(samples.normal_x_ws, samples.normal_y_ws, samples.normal_z_ws, i);
+  // The shading normal: facets of a smooth surface do not show.
+  const Vector3 normal = Load3(points.normal_x_ws, points.normal_y_ws, points.normal_z_ws, i);
   const auto distance = hn::Max(hn::Sqrt(Dot(to_camera, to_camera)), Splat(1e-9F));
   const auto along = hn::Max(Dot(to_camera, Splat3(photograph.forward_ws)) * Splat(-1.0F), Splat(1e-9F));
   const Vector3 direction = to_camera * (Splat(1.0F) / distance);
