@@ -40,6 +40,8 @@ PUBLIC_HEADERS = {
     "polar_plot.h": "measure",
     "probes.h": "render",
     "render.h": "render",
+    "photograph_files.h": "scene",
+    "photographs.h": "scene",
     "result.h": "base",
     "sampler.h": "image",
     "scene.h": "scene",

@@ -33,12 +33,16 @@ void SceneOptions::declare_machine(CLI::App& command) {
                      "instruction set: scalar, sse4, avx2, avx512 or neon; the picture is the same");
 }
 
-Result<Scene> SceneOptions::load() const {
+double SceneOptions::metres_per_unit() const {
   static const std::map<std::string, double> kMetres = {
       {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
+  return kMetres.at(unit);
+}
+
+Result<Scene> SceneOptions::load() const {
   LoadOptions options;
   options.up = up == "z" ? LoadOptions::Up::z : LoadOptions::Up::y;
-  options.metres_per_unit = kMetres.at(unit);
+  options.metres_per_unit = metres_per_unit();
   options.rigs.assign(rigs.begin(), rigs.end());
   Result<Scene> scene = load_scene({files.begin(), files.end()}, options);
   if (scene) report_warnings(scene->warnings);

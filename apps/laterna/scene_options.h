@@ -24,6 +24,7 @@ struct SceneOptions {
   /// --threads, --isa.
   void declare_machine(CLI::App& command);
 
+  [[nodiscard]] double metres_per_unit() const;  ///< of --unit
   [[nodiscard]] Result<Scene> load() const;
   [[nodiscard]] Result<RendererOptions> renderer_options() const;
   /// Loads the scene, lets `amend` change it, makes it ready, and tells its warnings.

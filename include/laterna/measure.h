@@ -62,4 +62,10 @@ Result<ExplainedPicture> texel_density_picture(const Renderer& renderer, const V
 Result<ExplainedPicture> shadow_pairs_picture(const Renderer& renderer, const View& camera,
                                               const RenderSettings& settings, const std::string& light);
 
+/// A gain for each photograph of the scene, per channel, that makes photographs agree where several see the same surface:
+/// exposure and white balance. The least squares, over all pairs that overlap, of the logarithms' medians (Brown and Lowe,
+/// Automatic panoramic image stitching using invariant features, 2007, section 6, in stops and without a pull toward 1); the
+/// gains' geometric mean is 1 among photographs that are linked by overlaps. Renderer::set_photograph_gains() takes them.
+Result<std::vector<glm::vec3>> balance_photographs(const Renderer& renderer, const Progress& progress = {});
+
 }  // namespace laterna

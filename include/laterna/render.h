@@ -30,8 +30,11 @@ enum class Layer : std::uint8_t {
   position,    ///< P.X/Y/Z: world, metres
   normal,      ///< N.X/Y/Z: shading normal, world
   albedo,      ///< albedo.R/G/B: base colour, linear
-  object,      ///< id.object: number of the object, −1 where nothing is; names in the metadata
-  passes,      ///< pass.*: the frame buffer after each pass, with Passes::multi
+  /// photo.seen: how many photographs see the surface, −1 where nothing is; photo.weight.<name>: each one's share of the
+  /// colour; photo.color.<name>.R/G/B: its linear colour before gain, NaN where it does not see the surface
+  photographs,
+  object,  ///< id.object: number of the object, −1 where nothing is; names in the metadata
+  passes,  ///< pass.*: the frame buffer after each pass, with Passes::multi
   luminance,  ///< luminance.Y: cd/m² toward the camera, where shading is pbr; otherwise the picture's luminance
   /// pixel_density.<name>: of each projector, pixels per metre of the surface, in the sparser direction.
   pixel_density,
@@ -180,6 +183,10 @@ class Renderer {
   /// Moves a node, or replaces a light. What does not depend on it is kept. Not to be called during a render.
   Result<void> set_transform(int node, const glm::dmat4& parent_from_node);
   Result<void> set_light(int light, Light value);
+
+  /// Sets Photograph::gain of every photograph, in their order. Not to be called during a render.
+  /// Error: another number of gains than photographs, or one that is not finite and above 0.
+  Result<void> set_photograph_gains(std::span<const glm::vec3> gains);
 
   /// The depth maps of a light's shadow maps: one, or six for a light that shines all round. Channel "Z": metres along
   /// the map's axis, +infinity where nothing is. `statistics`: what drawing cost, up to the conversion to metres.

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "laterna/image.h"
+#include "laterna/photographs.h"
 #include "laterna/result.h"
 #include "laterna/sampler.h"
 #include "laterna/shadows.h"
@@ -227,6 +228,8 @@ struct Scene {
   bool ambient_is_set = false;  ///< by a rig; otherwise the renderer may choose one for a scene without light
   std::optional<glm::vec3> background;  ///< linear radiance; unset: black, alpha 0
   std::optional<PhongHighlight> phong;
+  std::vector<Photograph> photographs;  ///< where there are any, surfaces show their colours
+  PhotographSettings photograph_settings;
   std::vector<Diagnostic> warnings;  ///< what was left out or guessed while reading
 };
 
@@ -249,6 +252,8 @@ inline constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 28;
 inline constexpr std::uint64_t kMaxPlacedTriangles = std::uint64_t{1} << 31;
 /// Metres from the origin, of any surface, camera or light. Beyond, single precision has lost all detail.
 inline constexpr double kMaxCoordinate = 1e9;
+/// What is wrong with a pose: not finite, too far out, or its columns are no right-handed rotation. Or an empty string.
+std::string find_fault(const Pose& pose);
 /// Largest factor or component of a colour or radiance: products of three stay finite in single precision.
 inline constexpr double kMaxRadiance = 1e12;
 

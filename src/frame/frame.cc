@@ -62,6 +62,14 @@ Result<Frame> Frame::build(const Scene& scene, std::shared_ptr<const TextureLibr
   for (const Material& material : scene.materials)
     frame.surfaces.push_back(make_surface(material, *frame.textures));
   frame.surfaces.push_back(make_surface(Material{}, *frame.textures));
+  for (const Photograph& photograph : scene.photographs) {
+    frame.photographs.push_back(
+        {&photograph, frame.textures->find(photograph.picture, image::MipUse::colour_with_alpha)});
+  }
+  // Photographs hold the light that they were taken in.
+  if (!scene.photographs.empty() && !scene.photograph_settings.are_lit) {
+    for (Surface& surface : frame.surfaces) surface.unlit = true;
+  }
   if (const std::size_t clusters = count_clusters(scene, meshes); clusters > kMaxClusters) {
     return tl::unexpected(
         Error(Failure::bad_input,

@@ -56,6 +56,12 @@ struct PlacedCamera {
   Pose pose;
 };
 
+/// A photograph with its picture found.
+struct PlacedPhotograph {
+  const Photograph* photograph = nullptr;
+  const image::MipChain* picture = nullptr;
+};
+
 /// Streams that not every cluster has; kNoStream where it is missing, otherwise the index of its first vertex.
 struct ClusterStreams {
   std::uint32_t normal = 0, uv[2] = {0, 0}, color = 0, tangent = 0;
@@ -107,6 +113,7 @@ class Frame {
   // What lights refer to; one per distribution, however many lights have it.
   std::map<std::shared_ptr<const LightDistribution>, std::shared_ptr<const LampTable>> lamps;
   std::vector<PlacedCamera> cameras;
+  std::vector<PlacedPhotograph> photographs;
   Bounds bounds;
   bool has_blending = false;
   bool has_blended_casters = false;

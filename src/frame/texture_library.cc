@@ -28,6 +28,8 @@ std::set<Request> requests(const Scene& scene) {
   for (const Light& light : scene.lights) {
     if (light.slide >= 0) all.insert({light.slide, slide_use(light)});
   }
+  for (const Photograph& photograph : scene.photographs)
+    all.insert({photograph.picture, image::MipUse::colour_with_alpha});
   return all;
 }
 

@@ -6,7 +6,7 @@
 namespace laterna {
 namespace {
 
-constexpr std::array<LayerDescription, 12> kLayers = {{
+constexpr std::array<LayerDescription, 13> kLayers = {{
     {Layer::light, "light", "ambient.R/G/B, light.<name>.R/G/B",
      "ambient and each light by itself; their sum is the picture"},
     {Layer::visibility, "visibility", "visibility.<name>",
@@ -21,6 +21,8 @@ constexpr std::array<LayerDescription, 12> kLayers = {{
     {Layer::position, "position", "P.X/Y/Z", "world position in metres"},
     {Layer::normal, "normal", "N.X/Y/Z", "shading normal in world space"},
     {Layer::albedo, "albedo", "albedo.R/G/B", "base colour, linear"},
+    {Layer::photographs, "photographs", "photo.seen, photo.weight.*, photo.color.*",
+     "how many photographs see a surface, -1 where nothing is; each one's share and colour"},
     {Layer::object, "object", "id.object",
      "number of the object, -1 where nothing is; names in the metadata"},
     {Layer::passes, "passes", "pass.*", "the frame buffer after each pass of --passes multi"},
@@ -123,6 +125,18 @@ void add_photometry(ChannelList& list, const RenderSettings& settings, const fra
   }
 }
 
+void add_photographs(ChannelList& list, const RenderSettings& settings, const frame::Frame& frame) {
+  if (!has_layer(settings, Layer::photographs) || frame.photographs.empty()) return;
+  list.add_data("photo.seen", [](const TileResult& t) { return &t.photographs_seen; });
+  for (std::size_t i = 0; i < frame.photographs.size(); ++i) {
+    const std::string& name = frame.photographs[i].photograph->name;
+    list.add_data("photo.weight." + name, [i](const TileResult& t) { return &t.photograph_share[i]; });
+    list.add_color(
+        "photo.color." + name + ".", kRgb,
+        [i](const TileResult& t) -> const TileColor& { return t.photograph_color[i]; }, false);
+  }
+}
+
 void add_passes(ChannelList& list, const RenderSettings& settings, const frame::Frame& frame) {
   if (!has_layer(settings, Layer::passes) || settings.passes != Passes::multi) return;
   list.add_data("pass.1.z", [](const TileResult& t) { return &t.depth; });
@@ -165,6 +179,7 @@ std::vector<PictureChannel> picture_channels(const RenderSettings& settings, con
         "albedo.", kRgb, [](const TileResult& t) -> const TileColor& { return t.albedo; }, false);
   }
   if (has_layer(settings, Layer::object)) list.add_object_ids();
+  add_photographs(list, settings, frame);
   add_passes(list, settings, frame);
   return list.take();
 }
@@ -180,6 +195,7 @@ shade::WantedLayers wanted_layers(const RenderSettings& settings) {
   wanted.geometry = has_layer(settings, Layer::depth) || has_layer(settings, Layer::position) ||
                     has_layer(settings, Layer::normal) || has_layer(settings, Layer::object) || wanted.passes;
   wanted.albedo = has_layer(settings, Layer::albedo);
+  wanted.photographs = has_layer(settings, Layer::photographs);
   return wanted;
 }
 

@@ -8,11 +8,13 @@
 #include "base/without_exceptions.h"
 #include "laterna/render.h"
 #include "light/light_plan.h"
+#include "light/photograph_plan.h"
 #include "render/camera_views.h"
 #include "render/cost_sum.h"
 #include "render/depth_map_cache.h"
 #include "render/metadata.h"
 #include "render/open_sheets.h"
+#include "render/photograph_feathers.h"
 #include "render/picture_accumulation.h"
 #include "render/picture_writer.h"
 #include "render/probe_grid.h"
@@ -89,6 +91,7 @@ struct Renderer::Implementation {
     casters.reset();
     panes.reset();
     neighbours.reset();
+    feathers.clear();
     return {};
   }
 
@@ -130,10 +133,41 @@ struct Renderer::Implementation {
     return neighbours.get();
   }
 
+  // One for each photograph, drawn when a picture first asks.
+  const std::vector<image::MipChain>& photograph_feathers() const {
+    const std::lock_guard lock(casters_mutex);
+    StageTimes unused;
+    for (std::size_t i = feathers.size(); i < frame.photographs.size(); ++i) {
+      const light::ShadowView view = light::photograph_view(frame.photographs[i], render::kFeatherMapSide);
+      const shadow::DepthMap depth =
+          render::draw_depth_map({frame, pool, bins, set, unused}, view, CasterFaces::both, false);
+      feathers.push_back(
+          render::make_feather(depth, *frame.photographs[i].picture, scene.photograph_settings.feather));
+    }
+    return feathers;
+  }
+
+  // Photographs with what finds the surfaces that they see.
+  shade::PhotographJob make_photograph_job(const raster::RasterView::Ray& ray, const RenderSettings& settings,
+                                           const light::PhotographPlan& plan,
+                                           render::ShadowCasting& casting) const {
+    shade::PhotographJob job;
+    const PhotographSettings& how = scene.photograph_settings;
+    job.unseen = how.unseen;
+    for (std::size_t i = 0; i < plan.photographs.size(); ++i) {
+      const light::PlannedLight& planned = plan.photographs[i];
+      const image::MipChain* feather = how.feather > 0 ? &photograph_feathers()[i] : nullptr;
+      job.photographs.push_back(
+          {shade::BoundPhotograph(frame.photographs[i], ray, how.blend, feather, settings.anisotropy),
+           shade::LightReach(*planned.placed, ShadingModel::papers), casting.make(planned, planned.number)});
+    }
+    return job;
+  }
+
   // Everything the tiles share, with every shadow technique ready to answer.
   shade::ShaderJob make_job(const raster::RasterView& view, const RenderSettings& settings,
-                            const light::LightPlan& plan, RenderStatistics& statistics,
-                            ProgressReport& progress) const {
+                            const light::LightPlan& plan, const light::PhotographPlan& photographs,
+                            RenderStatistics& statistics, ProgressReport& progress) const {
     shade::ShaderJob job;
     job.frame = &frame;
     job.view = &view;
@@ -152,6 +186,7 @@ struct Renderer::Implementation {
         {frame, pool, set, casters_revision, bins, maps, [this] { return ray_scene(); },
          [this](shadow::CasterTree::Casters which) { return caster_tree(which); },
          [this] { return triangle_neighbours(); }, view, settings, statistics, progress});
+    job.photographs = make_photograph_job(ray, settings, photographs, casting);
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
@@ -215,6 +250,7 @@ struct Renderer::Implementation {
   mutable std::shared_ptr<const shadow::CasterTree> casters, panes;
   mutable std::shared_ptr<const frame::MeshNeighbours> mesh_neighbours;
   mutable std::unique_ptr<const frame::TriangleNeighbours> neighbours;
+  mutable std::vector<image::MipChain> feathers;
 };
 
 Renderer::Renderer(std::unique_ptr<Implementation> implementation)
@@ -313,9 +349,11 @@ RenderStatistics Renderer::Implementation::draw_picture(const View& from, const 
   watch.start();
   RenderStatistics statistics;
   const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows, point, &from});
+  const light::PhotographPlan photographs =
+      light::make_photograph_plan(frame, scene.photograph_settings.visibility);
   statistics.plan_ms = watch.lap_ms();
   const raster::RasterView view(from, settings.width, settings.height);
-  shade::ShaderJob job = make_job(view, settings, plan, statistics, progress);
+  shade::ShaderJob job = make_job(view, settings, plan, photographs, statistics, progress);
   statistics.shadow_ms = watch.lap_ms();
   if (!progress.is_cancelled()) draw_bands(view, settings, job, writer, statistics, progress);
   for (std::size_t i = 0; i < job.lights.size(); ++i)
@@ -472,6 +510,21 @@ Result<void> Renderer::set_light(int light, Light value) {
     return loaded;
   }
   self.frame.place_lights_and_cameras(self.scene);
+  return {};
+}
+
+Result<void> Renderer::set_photograph_gains(std::span<const glm::vec3> gains) {
+  std::vector<Photograph>& photographs = implementation_->scene.photographs;
+  if (gains.size() != photographs.size()) {
+    return refuse("expected a gain for each of " + std::to_string(photographs.size()) + " photographs, got " +
+                  std::to_string(gains.size()));
+  }
+  std::vector<Photograph> before = photographs;
+  for (std::size_t i = 0; i < gains.size(); ++i) photographs[i].gain = gains[i];
+  if (std::vector<Diagnostic> faults = validate(implementation_->scene); !faults.empty()) {
+    for (std::size_t i = 0; i < gains.size(); ++i) photographs[i].gain = before[i].gain;
+    return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+  }
   return {};
 }
 

@@ -18,6 +18,9 @@
 namespace laterna {
 namespace {
 
+// Of a photograph: beyond, it is no exposure.
+constexpr float kMostGain = 1e6F;
+
 std::string item(std::string_view list, std::size_t index) { return fmt::format("{}[{}]", list, index); }
 
 template <class Vector>
@@ -39,6 +42,7 @@ class Validator {
     check_meshes();
     check_cameras();
     check_lights();
+    check_photographs();
     check_whole_scene();
     check_nodes();
     return faults_.errors();
@@ -97,6 +101,8 @@ class Validator {
   void check_source(const Light& light, const std::string& place);
   void check_shadow(const ShadowSettings& shadow, const std::string& place);
   void check_plane(const ShadowPlane& plane, const std::string& place);
+  void check_photographs();
+  void check_photograph(const Photograph& photograph, const std::string& place);
   void check_whole_scene();
   void check_nodes();
   void check_node(const Node& node, const std::string& place);
@@ -266,6 +272,41 @@ void Validator::check_cameras() {
 void Validator::check_lights() {
   check_names(scene_.lights, "lights");
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) check_light(scene_.lights[i], item("lights", i));
+}
+
+void Validator::check_photographs() {
+  check_names(scene_.photographs, "photographs");
+  for (std::size_t i = 0; i < scene_.photographs.size(); ++i)
+    check_photograph(scene_.photographs[i], item("photographs", i));
+  const PhotographSettings& settings = scene_.photograph_settings;
+  const std::string place = "photograph_settings";
+  if (settings.visibility != ShadowTechnique::exact && settings.visibility != ShadowTechnique::map &&
+      settings.visibility != ShadowTechnique::raytraced) {
+    fault(place + ".visibility", "expected exact, map or raytraced");
+  }
+  check_enumerator(place + ".blend", settings.blend, PhotographBlend::view);
+  check_number(place + ".feather", settings.feather, 0, 0.5);
+  check_color(place + ".unseen", settings.unseen, kMaxRadiance);
+}
+
+void Validator::check_photograph(const Photograph& photograph, const std::string& place) {
+  if (photograph.picture < 0 || static_cast<std::size_t>(photograph.picture) >= scene_.pictures.size()) {
+    fault(place + ".picture",
+          fmt::format("{} is no index into the {} pictures", photograph.picture, scene_.pictures.size()));
+  }
+  if (std::string message = find_fault(photograph.projection); !message.empty()) {
+    fault(place + ".projection", std::move(message));
+  } else if (photograph.projection.is_orthographic) {
+    fault(place + ".projection", "a photograph's projection must be perspective");
+  }
+  if (std::string message = find_fault(photograph.pose); !message.empty())
+    fault(place + ".pose", std::move(message));
+  for (int i = 0; i < 3; ++i) {
+    const float gain = photograph.gain[i];
+    if (gain > 0 && gain <= kMostGain) continue;
+    fault(item(place + ".gain", static_cast<std::size_t>(i)),
+          fmt::format("expected a number above 0 and up to {}, got {}", kMostGain, gain));
+  }
 }
 
 void Validator::check_light(const Light& light, const std::string& place) {

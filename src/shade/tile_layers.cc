@@ -52,6 +52,10 @@ TileLayers::TileLayers(const frame::Frame& frame, const raster::RasterView& view
     for (const frame::PlacedLight& placed : frame.lights)
       pixel_densities_.push_back(PixelDensity::of(placed));
   }
+  if (wanted.photographs) {
+    result_.photograph_share.resize(frame.photographs.size());
+    result_.photograph_color.resize(frame.photographs.size());
+  }
   if (!wanted.slide_uv) return;
   result_.slide_s.resize(lights);
   result_.slide_t.resize(lights);
@@ -70,6 +74,12 @@ void TileLayers::start_tile() {
     result_.object.fill(kNoObject);
   }
   if (wanted_.albedo) clear(result_.albedo);
+  if (!wanted_.photographs) return;
+  result_.photographs_seen.fill(-1);
+  for (TilePlane& plane : result_.photograph_share) plane.fill(0);
+  for (TileColor& color : result_.photograph_color) {
+    for (TilePlane* plane : {&color.r, &color.g, &color.b}) plane->fill(kNaN);
+  }
 }
 
 void TileLayers::store_geometry(const SurfaceSamples& s, const SurfacePoints& points) {
@@ -89,6 +99,25 @@ void TileLayers::store_geometry(const SurfaceSamples& s, const SurfacePoints& po
     result_.depth[s.pixel[i]] = static_cast<float>(view_.distance_from_reversed(s.q[i]));
     result_.object[s.pixel[i]] = frame_.clusters[cluster_of(s.id[i])].object;
   });
+}
+
+void TileLayers::store_photographs(const SurfaceSamples& s, const PhotographPainter& painter) {
+  scatter(s, painter.sums().seen.data(), result_.photographs_seen.data());
+  const SampleArray<float>& all = painter.sums().weight;
+  for (std::size_t p = 0; p < painter.colors().size(); ++p) {
+    const PhotographColor& color = painter.colors()[p];
+    TileColor& target = result_.photograph_color[p];
+    for (std::size_t group = 0; group < s.group_count; ++group) {
+      for (unsigned mask = s.active[group]; mask != 0; mask &= mask - 1) {
+        const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
+        if (color.weight[i] <= 0) continue;
+        result_.photograph_share[p][s.pixel[i]] = color.weight[i] / all[i];
+        target.r[s.pixel[i]] = color.r[i];
+        target.g[s.pixel[i]] = color.g[i];
+        target.b[s.pixel[i]] = color.b[i];
+      }
+    }
+  }
 }
 
 void TileLayers::add_visibility(std::size_t light, const SurfaceSamples& s, const Arrival& arrival) {

@@ -9,6 +9,7 @@
 #include "frame/frame.h"
 #include "raster/tile_raster.h"
 #include "shade/illumination.h"
+#include "shade/photograph_painter.h"
 #include "shade/pixel_density.h"
 #include "shadow/surface_samples.h"
 
@@ -23,6 +24,7 @@ struct WantedLayers {
   bool pixel_density = false;  // per projector
   bool geometry = false;       // depth, position, normal, object
   bool albedo = false;
+  bool photographs = false;
   bool passes = false;  // Passes::multi: the frame buffer after each pass
 };
 
@@ -46,6 +48,9 @@ struct TileResult {
   std::vector<TilePlane> pixel_density;  // wanted.pixel_density: per light
   TilePlane depth;                       // metres along the axis, +infinity where nothing is
   TileColor position, normal, albedo;
+  TilePlane photographs_seen;               // how many see the sample, −1 where nothing is
+  std::vector<TilePlane> photograph_share;  // per photograph: of the sample's colour
+  std::vector<TileColor> photograph_color;  // before gain, NaN where the photograph does not see the sample
   std::array<std::uint32_t, raster::kTilePixels>
       object;  // index of the frame's object, kNoObject where nothing is
 };
@@ -62,6 +67,7 @@ class TileLayers {
   void start_tile();
   /// Depth, position, normal, object, albedo.
   void store_geometry(const shadow::SurfaceSamples& samples, const SurfacePoints& points);
+  void store_photographs(const shadow::SurfaceSamples& samples, const PhotographPainter& painter);
   void add_visibility(std::size_t light, const shadow::SurfaceSamples& samples,
                       const shadow::Arrival& arrival);
   void store_slide_coordinates(std::size_t light, const shadow::SurfaceSamples& samples,

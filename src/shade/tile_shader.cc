@@ -68,6 +68,10 @@ class TileShader::Worker {
         seen_(std::make_unique<shadow::Arrival>()),
         layers_(*job.frame, *job.view, job.wanted, result_) {
     samples_->ray = job.view->homogeneous_ray();
+    if (!job.photographs.photographs.empty()) {
+      photographs_ =
+          std::make_unique<PhotographPainter>(job.photographs, job.wanted.photographs, job.instruction_set);
+    }
     has_lights_to_leave_out_ =
         std::any_of(job.lights.begin(), job.lights.end(),
                     [](const ShaderLight& light) { return !light.reach.is_everywhere(); });
@@ -232,6 +236,7 @@ class TileShader::Worker {
     const std::size_t groups = samples_->group_count;
     find_surface_points_(source_, surface, *samples_, *points_);
     end_stage(Stage::surface);
+    if (photographs_ != nullptr) paint_photographs(is_opaque);
     if (part.ambient) {
       find_ambient_(job_.reflection, surface, groups, *points_, *radiance_);
       if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
@@ -257,6 +262,15 @@ class TileShader::Worker {
     }
     if (sums) scatter(*samples_, *radiance_, targets[0]);
     end_stage(Stage::light);
+  }
+
+  // Base colours from photographs.
+  void paint_photographs(bool is_opaque) {
+    const double drawing_ms = photographs_->paint(*samples_, *points_);
+    map_ms_ += drawing_ms;
+    if (is_opaque && sample_ == 0 && job_.wanted.photographs)
+      layers_.store_photographs(*samples_, *photographs_);
+    end_stage(Stage::surface, drawing_ms);
   }
 
   [[nodiscard]] bool wants_arrival(bool is_opaque) const {
@@ -434,6 +448,7 @@ class TileShader::Worker {
   std::unique_ptr<SlideCoordinates> coordinates_;
   std::unique_ptr<Radiance> radiance_;
   std::unique_ptr<shadow::Arrival> arrival_, seen_;
+  std::unique_ptr<PhotographPainter> photographs_;  // null: there are none
   TileResult result_;
   TileLayers layers_;
 

@@ -10,6 +10,7 @@
 #include "raster/tile_raster.h"
 #include "shade/illumination.h"
 #include "shade/light_reach.h"
+#include "shade/photograph_painter.h"
 #include "shade/shadow_tone.h"
 #include "shade/surface_cut.h"
 #include "shade/tile_layers.h"
@@ -32,6 +33,7 @@ struct ShaderJob {
   const raster::RasterView* view = nullptr;
   std::span<const raster::Batch> batches;
   std::vector<ShaderLight> lights;
+  PhotographJob photographs;
   std::vector<BoundLight> physical_lights;  // for lux where the model is not physical; otherwise empty
   ReflectionSettings reflection;
   Interpolation interpolation = Interpolation::perspective;

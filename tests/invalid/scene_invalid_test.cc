@@ -75,6 +75,14 @@ constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 Primitive& primitive_of(Scene& scene) { return scene.meshes[0].primitives[0]; }
 
+Photograph photograph(int picture) {
+  Photograph photograph;
+  photograph.name = "photo";
+  photograph.picture = picture;
+  photograph.projection = Projection::perspective(Angle::degrees(40), 1, 0.1, 10);
+  return photograph;
+}
+
 const SceneCase kSceneCases[] = {
     {"PictureWithoutSource", [](Scene& s) { s.pictures[0].file.clear(); },
      "pictures[0]: expected exactly one of file, encoded and pixels, got 0"},
@@ -341,6 +349,33 @@ const SceneCase kSceneCases[] = {
        s.nodes[0].node_from_instance[0][3][0] = -1e13;
      },
      "nodes[0]: meshes[0] reaches more than 1000000000 m from the origin"},
+    {"PhotographWithoutPicture", [](Scene& s) { s.photographs.push_back(photograph(-1)); },
+     "photographs[0].picture: -1 is no index into the 0 pictures"},
+    {"PhotographParallel",
+     [](Scene& s) {
+       s.pictures.push_back(Picture{.name = "p", .file = "p.png"});
+       s.photographs.push_back(photograph(0));
+       s.photographs[0].projection = Projection::orthographic(1, 1, 0, 10);
+     },
+     "photographs[0].projection: a photograph's projection must be perspective"},
+    {"PhotographMirrored",
+     [](Scene& s) {
+       s.pictures.push_back(Picture{.name = "p", .file = "p.png"});
+       s.photographs.push_back(photograph(0));
+       s.photographs[0].pose.world_from_view_rotation[0] *= -1;
+     },
+     "photographs[0].pose: its rotation must be right-handed, not mirrored"},
+    {"PhotographGain",
+     [](Scene& s) {
+       s.pictures.push_back(Picture{.name = "p", .file = "p.png"});
+       s.photographs.push_back(photograph(0));
+       s.photographs[0].gain.y = 0;
+     },
+     "photographs[0].gain[1]: expected a number above 0 and up to 1000000, got 0"},
+    {"PhotographVisibility", [](Scene& s) { s.photograph_settings.visibility = ShadowTechnique::ground; },
+     "photograph_settings.visibility: expected exact, map or raytraced"},
+    {"PhotographFeather", [](Scene& s) { s.photograph_settings.feather = 0.6; },
+     "photograph_settings.feather: expected a number from 0 to 0.5, got 0.6"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Built, InvalidBuiltScene, testing::ValuesIn(kSceneCases), case_name);
