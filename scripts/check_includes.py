@@ -32,6 +32,7 @@ PUBLIC_HEADERS = {
     "build_info.h": "measure",
     "image.h": "image",
     "instruction_set.h": "base",
+    "lens.h": "base",
     "measure.h": "measure",
     "output.h": "base",
     "render.h": "render",

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "laterna/image.h"
+#include "laterna/lens.h"
 #include "laterna/result.h"
 #include "laterna/sampler.h"
 #include "laterna/shadows.h"
@@ -151,6 +152,9 @@ struct Light {
   bool slide_is_intensity = false;
   BeamProfile profile = BeamProfile::flat_field;
   Outside outside = Outside::black;
+  /// Projector with perspective; the frame's shape must then be its own (`aspect_from_slide` false). `projection` is the
+  /// frame as it would be thrown without.
+  LensDistortion distortion;
 
   /// Directional: the shadow map's frustum is fitted to the scene; otherwise `projection` (orthographic) holds it.
   bool fit = true;

@@ -96,6 +96,7 @@ class Validator {
   void check_cameras();
   void check_lights();
   void check_light(const Light& light, const std::string& place);
+  void check_distortion(const Light& light, const std::string& place);
   void check_source(const Light& light, const std::string& place);
   void check_shadow(const ShadowSettings& shadow, const std::string& place);
   void check_plane(const ShadowPlane& plane, const std::string& place);
@@ -316,6 +317,7 @@ void Validator::check_light(const Light& light, const std::string& place) {
   if (light.type == LightType::directional && !light.fit && !light.projection.is_orthographic) {
     fault(place + ".projection", "a directional light's projection must be orthographic");
   }
+  check_distortion(light, place + ".distortion");
   check_source(light, place + ".source");
   check_shadow(light.shadow, place + ".shadow");
   if (std::string message = find_fault(light.shadow.depth, light); !message.empty())
@@ -328,6 +330,18 @@ void Validator::check_light(const Light& light, const std::string& place) {
     if (std::string message = find_fault(*light.shadow.technique, light); !message.empty())
       fault(place + ".shadow.technique", std::move(message));
   }
+}
+
+void Validator::check_distortion(const Light& light, const std::string& place) {
+  if (light.distortion.is_none() || !find_fault(light.projection).empty()) return;
+  if (light.type != LightType::projector) return fault(place, "only a projector has a lens that distorts");
+  if (light.aspect_from_slide) {
+    return fault(place,
+                 "needs a frame of a known shape: set aspect_from_slide to false, and the slide's aspect in "
+                 "the projection");
+  }
+  if (std::string message = find_fault(light.distortion, light.projection); !message.empty())
+    fault(place, std::move(message));
 }
 
 void Validator::check_source(const Light& light, const std::string& place) {
