@@ -34,6 +34,7 @@ PUBLIC_HEADERS = {
     "image.h": "image",
     "instruction_set.h": "base",
     "lamps.h": "scene",
+    "lens.h": "base",
     "measure.h": "measure",
     "light_color.h": "image",
     "output.h": "base",

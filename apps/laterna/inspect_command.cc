@@ -18,7 +18,8 @@ using Json = nlohmann::json;
 struct Options {
   SceneOptions scene;
   ViewOptions view;
-  std::string light, point;
+  std::string light, point, slide;
+  double distance = 1;
   bool json = false;
 };
 
@@ -29,12 +30,15 @@ Json matrix_json(const glm::dmat4& m) {
 }
 
 Json report_json(const PointReport& p) {
+  Json slide;  // null: no projector, or the lens throws nothing there
+  if (p.slide) slide = {p.slide->x, p.slide->y};
   return {{"world", {p.world.x, p.world.y, p.world.z}},
           {"clip", {p.clip.x, p.clip.y, p.clip.z, p.clip.w}},
           {"screen", {p.screen.x, p.screen.y}},
           {"pixel", {p.pixel.x, p.pixel.y}},
           {"light", {p.light.x, p.light.y, p.light.z, p.light.w}},
           {"texture", {p.texture.x, p.texture.y, p.texture.z}},
+          {"slide", slide},
           {"distance", p.distance},
           {"is_ahead", p.is_ahead},
           {"is_inside", p.is_inside},
@@ -50,28 +54,47 @@ void print_report(const PointReport& p) {
              p.pixel.x, p.pixel.y);
   fmt::print("light    {:.9g} {:.9g} {:.9g} {:.9g}   M_l · world\n", p.light.x, p.light.y, p.light.z,
              p.light.w);
-  fmt::print("texture  {:.9g} {:.9g}, depth {:.9g}   from the top-left corner of the slide\n", p.texture.x,
-             p.texture.y, p.texture.z);
+  fmt::print("texture  {:.9g} {:.9g}, depth {:.9g}   from the top-left corner of the light's view\n",
+             p.texture.x, p.texture.y, p.texture.z);
+  if (p.slide) {
+    fmt::print("slide    {:.9g} {:.9g}   from the top-left corner of the slide, through the lens\n",
+               p.slide->x, p.slide->y);
+  }
   fmt::print("{:.6g} m along the light's axis, {}\n", p.distance,
              !p.is_ahead   ? "behind the lens"
              : p.is_inside ? "inside its frame"
                            : "outside its frame");
 }
 
-int run_inspect(const Options& options) {
-  glm::dvec3 point;
+// --point, or where --slide is thrown.
+Result<glm::dvec3> find_point(const Options& options, const Renderer& renderer) {
   char rest = 0;
-  if (std::sscanf(options.point.c_str(), "%lf,%lf,%lf%c", &point.x, &point.y, &point.z, &rest) != 3) {
-    return report(bad_option(fmt::format("--point: expected x,y,z in metres, got \"{}\"", options.point)));
+  if (options.slide.empty()) {
+    glm::dvec3 point;
+    if (std::sscanf(options.point.c_str(), "%lf,%lf,%lf%c", &point.x, &point.y, &point.z, &rest) == 3)
+      return point;
+    return tl::unexpected(
+        bad_option(fmt::format("--point: expected x,y,z in metres, got \"{}\"", options.point)));
   }
+  glm::dvec2 slide;
+  if (std::sscanf(options.slide.c_str(), "%lf,%lf%c", &slide.x, &slide.y, &rest) != 2) {
+    return tl::unexpected(bad_option(
+        fmt::format("--slide: expected s,t from the slide's top-left corner, got \"{}\"", options.slide)));
+  }
+  return renderer.world_from_slide(options.light, slide, options.distance);
+}
+
+int run_inspect(const Options& options) {
   const Result<ViewOptions::Size> size = options.view.parse_size();
   if (!size) return report(size.error());
   const Result<Renderer> renderer = options.scene.make_renderer();
   if (!renderer) return report(renderer.error());
   const Result<View> view = options.view.find(*renderer, *size);
   if (!view) return report(view.error());
+  const Result<glm::dvec3> point = find_point(options, *renderer);
+  if (!point) return report(point.error());
   const Result<PointReport> found =
-      inspect_point(*renderer, *view, size->width, size->height, options.light, point);
+      inspect_point(*renderer, *view, size->width, size->height, options.light, *point);
   if (!found) return report(found.error());
   if (options.json) {
     fmt::print("{}\n", report_json(*found).dump(2));
@@ -89,7 +112,15 @@ void declare_inspect(CLI::App& app, Run& run) {
       app.add_subcommand("inspect", "a point in world, clip, screen, light and texture coordinates");
   options->scene.declare_scene(*command);
   command->add_option("--light", options->light, "light by name")->required();
-  command->add_option("--point", options->point, "x,y,z in metres")->required();
+  CLI::Option_group* which = command->add_option_group("point", "one of");
+  which->add_option("--point", options->point, "x,y,z in metres");
+  CLI::Option* slide =
+      which->add_option("--slide", options->slide,
+                        "s,t from a projector's slide's top-left corner, 0 to 1: where it is thrown");
+  which->require_option(1);
+  command->add_option("--distance", options->distance, "with --slide: metres along the light's axis")
+      ->needs(slide)
+      ->capture_default_str();
   options->view.declare(*command);
   command->add_flag("--json", options->json, "as JSON, with the matrices");
   command->footer(

@@ -1,6 +1,7 @@
 // Looking into a picture: a point in every coordinate system, and depth made visible.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,14 @@ namespace laterna {
 /// A world point in the five coordinate systems of Segal et al. 1992, section 2 and 3.
 struct PointReport {
   glm::dvec3 world{0};
-  glm::dvec4 clip{0};      ///< clip_from_world · world
-  glm::dvec2 screen{0};    ///< clip x and y over w, −1…1, y up
-  glm::dvec2 pixel{0};     ///< (0, 0) the top-left corner of the picture
-  glm::dvec4 light{0};     ///< light_from_world · world, homogeneous (x^l, y^l, z^l, w^l)
-  glm::dvec3 texture{0};   ///< slide or shadow map: s, t from the top-left corner, 0…1, and depth 0…1
+  glm::dvec4 clip{0};     ///< clip_from_world · world
+  glm::dvec2 screen{0};   ///< clip x and y over w, −1…1, y up
+  glm::dvec2 pixel{0};    ///< (0, 0) the top-left corner of the picture
+  glm::dvec4 light{0};    ///< light_from_world · world, homogeneous (x^l, y^l, z^l, w^l)
+  glm::dvec3 texture{0};  ///< slide or shadow map: s, t from the top-left corner, 0…1, and depth 0…1
+  /// Projectors: place on the slide, 0…1 from its top-left corner, with the distortion of the lens; without distortion
+  /// s and t of `texture`. Nothing behind the lens, or where it throws nothing.
+  std::optional<glm::dvec2> slide;
   double distance = 0;     ///< from the light along its axis, metres
   bool is_ahead = false;   ///< in front of the lens
   bool is_inside = false;  ///< and within the frame

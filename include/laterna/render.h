@@ -161,6 +161,16 @@ class Renderer {
   /// What a light sees: the view of its shadow map. Error: no such light, or one that shines all round.
   [[nodiscard]] Result<View> light_view(const std::string& name) const;
 
+  /// The place on a projector's slide, (0, 0) its top-left corner, that lights a point, with the distortion of its lens;
+  /// outside [0, 1] beyond the frame. Nothing behind the lens, or where a distorting one throws nothing.
+  /// Error: no projector of that name.
+  [[nodiscard]] Result<std::optional<glm::dvec2>> slide_from_world(const std::string& projector,
+                                                                   const glm::dvec3& point_ws) const;
+  /// The other way: where a place of the slide is seen on a wall square to the beam, `distance` metres along its axis.
+  /// Error: no projector of that name, or its lens throws that place nowhere.
+  [[nodiscard]] Result<glm::dvec3> world_from_slide(const std::string& projector, glm::dvec2 slide,
+                                                    double distance) const;
+
   /// Names of all channels that `settings` produce, in the order of a file.
   [[nodiscard]] std::vector<std::string> channel_names(const RenderSettings& settings) const;
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "laterna/image.h"
+#include "laterna/lens.h"
 #include "laterna/photographs.h"
 #include "laterna/result.h"
 #include "laterna/sampler.h"
@@ -162,6 +163,9 @@ struct Light {
   double black_level = 0;
   /// Projector: pixels of its panel, for Layer::pixel_density. 0: the slide's.
   int panel_width = 0, panel_height = 0;
+  /// Projector with perspective; the frame's shape must then be its own (`aspect_from_slide` false). `projection` is the
+  /// frame as it would be thrown without.
+  LensDistortion distortion;
 
   /// Directional: the shadow map's frustum is fitted to the scene; otherwise `projection` (orthographic) holds it.
   bool fit = true;

@@ -61,6 +61,15 @@ struct Projection {
   /// OpenCV's pinhole: pixels, centre of the top-left pixel at (0, 0), y down.
   static Projection from_intrinsics(double fx, double fy, double cx, double cy, double width, double height,
                                     double near, double far);
+  /// A lens of `focal_length` before a sensor or panel of that width and height, all three in the same unit.
+  static Projection from_focal_length(double focal_length, double width, double height, double near,
+                                      double far);
+  /// A projector's throw ratio: distance / width of the picture.
+  static Projection from_throw_ratio(double throw_ratio, double aspect, double near, double far);
+
+  /// Lens shift: the frustum moved sideways by fractions of its own width (to the right) and height (up), as data sheets
+  /// of projectors give it. At (0, 0.5) the lower side is on the axis.
+  [[nodiscard]] Projection shifted(double widths, double heights) const;
 
   [[nodiscard]] double aspect() const { return (right - left) / (top - bottom); }
   [[nodiscard]] Angle yfov() const;  ///< perspective only

@@ -87,6 +87,26 @@ Projection Projection::from_intrinsics(double fx, double fy, double cx, double c
           far};
 }
 
+Projection Projection::from_focal_length(double focal_length, double width, double height, double near,
+                                         double far) {
+  const double x = width / (2 * focal_length), y = height / (2 * focal_length);
+  return {false, -x, x, -y, y, near, far};
+}
+
+Projection Projection::from_throw_ratio(double throw_ratio, double aspect, double near, double far) {
+  return from_focal_length(throw_ratio, 1, 1 / aspect, near, far);
+}
+
+Projection Projection::shifted(double widths, double heights) const {
+  Projection moved = *this;
+  const double x = widths * (right - left), y = heights * (top - bottom);
+  moved.left += x;
+  moved.right += x;
+  moved.bottom += y;
+  moved.top += y;
+  return moved;
+}
+
 Angle Projection::yfov() const { return Angle::radians(arctangent(top) - arctangent(bottom)); }
 
 std::string find_fault(const Projection& p) {

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "base/task_pool.h"
 #include "base/triangle_clusters.h"
 #include "frame/cluster_builder.h"
+#include "frame/slide_lens.h"
 #include "frame/texture_library.h"
 #include "laterna/scene.h"
 
@@ -44,7 +46,8 @@ struct PlacedLight {
   const Light* light = nullptr;
   int node = -1;
   Pose pose;
-  View view;             ///< projector: its frustum, with the slide's aspect
+  View view;  ///< projector: its frustum, with the slide's aspect; with a lens its beam
+  std::optional<SlideLens> lens;  ///< of a projector with distortion
   double intensity = 0;  ///< candela on the axis (lamps: at their peak), or lux: what `lumens` comes to
   const image::MipChain* slide = nullptr;  ///< null: plain white
   const LampTable* lamp = nullptr;         ///< null: no measured lamp

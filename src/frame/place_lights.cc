@@ -24,6 +24,7 @@ double candela_of(const Light& light, const PlacedLight& placed) {
     default:
       break;
   }
+  if (placed.lens) return candela_from_lumens(*light.lumens, *placed.lens, beam_profile(light));
   const Projection& projection = placed.view.projection;
   if (light.slide_is_intensity && placed.slide != nullptr && !projection.is_orthographic) {
     const double angle = solid_angle_of_map(*placed.slide, projection);
@@ -48,12 +49,18 @@ PlacedLight place(const Light& light, int node, const Pose& pose, Frame& frame) 
   Projection projection = light.projection;
   if (light.type == LightType::projector && light.aspect_from_slide && placed.slide != nullptr) {
     const double aspect = static_cast<double>(placed.slide->width()) / placed.slide->height();
-    const double middle = (projection.left + projection.right) / 2;
     const double half_width = (projection.top - projection.bottom) * aspect / 2;
+    // A frustum that is off its axis stays so in proportion.
+    const double middle =
+        (projection.left + projection.right) / (projection.right - projection.left) * half_width;
     projection.left = middle - half_width;
     projection.right = middle + half_width;
   }
   placed.view = {pose, projection};
+  if (light.type == LightType::projector && !light.distortion.is_none()) {
+    placed.lens.emplace(light.distortion, projection);
+    placed.view.projection = placed.lens->beam;
+  }
   placed.lamp = find_lamp(light, frame);
   placed.intensity = candela_of(light, placed);
   return placed;
@@ -111,6 +118,10 @@ double candela_from_lumens(double lumens, const Projection& p, BeamProfile profi
   const double area = (p.right - p.left) * (p.top - p.bottom);  // at 1 m
   if (p.is_orthographic) return lumens / area;                  // lux, at any distance
   return lumens / (profile == BeamProfile::flat_field ? area : solid_angle(p));
+}
+
+double candela_from_lumens(double lumens, const SlideLens& lens, BeamProfile profile) {
+  return lumens / (profile == BeamProfile::flat_field ? lens.area : lens.solid_angle);
 }
 
 void place_lights_and_cameras(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,

@@ -17,6 +17,10 @@ BeamProfile beam_profile(const Light& light);
 /// angle for uniform candela, illuminance at 1 m × area of the frame at 1 m for a flat field.
 double candela_from_lumens(double lumens, const Projection& projection, BeamProfile profile);
 
+/// The same for a picture that is thrown through a distorting lens. Distortion moves the slide's points; it changes neither
+/// a flat field's illuminance nor uniform candela.
+double candela_from_lumens(double lumens, const SlideLens& lens, BeamProfile profile);
+
 /// Solid angle of a perspective frustum in steradians.
 double solid_angle(const Projection& projection);
 

@@ -33,7 +33,9 @@ Result<PointReport> inspect_point(const Renderer& renderer, const View& camera, 
   report.is_ahead =
       projection.is_orthographic ? report.distance > std::min(projection.near, 0.0) : report.distance > 0;
   const auto in_unit = [](double v) { return v >= 0 && v <= 1; };
-  report.is_inside = report.is_ahead && in_unit(report.texture.x) && in_unit(report.texture.y);
+  std::optional<glm::dvec2> place(report.texture);
+  if (const auto slide = renderer.slide_from_world(light, point_ws)) place = report.slide = *slide;
+  report.is_inside = report.is_ahead && place && in_unit(place->x) && in_unit(place->y);
   return report;
 }
 

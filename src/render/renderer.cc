@@ -6,6 +6,7 @@
 #include "base/refuse.h"
 #include "base/stopwatch.h"
 #include "base/without_exceptions.h"
+#include "frame/slide_points.h"
 #include "laterna/render.h"
 #include "light/light_plan.h"
 #include "light/photograph_plan.h"
@@ -213,6 +214,7 @@ struct Renderer::Implementation {
   /// The light of that name in a plan.
   [[nodiscard]] static Result<light::PlannedLight> find_light(light::LightPlan plan, const std::string& name);
   [[nodiscard]] Result<light::PlannedLight> planned_light(const std::string& name) const;
+  [[nodiscard]] Result<const frame::PlacedLight*> find_projector(const std::string& name) const;
   /// The light with the one shadow view of that face.
   [[nodiscard]] Result<light::PlannedLight> planned_face(const std::string& name, int face) const;
   [[nodiscard]] Result<LayeredImage> draw_channels(const View& view, const RenderSettings& settings,
@@ -577,6 +579,28 @@ Result<View> Renderer::light_view(const std::string& name) const {
   if (!planned) return tl::unexpected(planned.error());
   if (planned->shadow_views.size() == 1) return planned->shadow_views[0].view;
   return refuse("light \"" + name + "\" shines all round: it has no one view");
+}
+
+Result<const frame::PlacedLight*> Renderer::Implementation::find_projector(const std::string& name) const {
+  for (const frame::PlacedLight& placed : frame.lights) {
+    if (placed.light->name == name && placed.light->type == LightType::projector) return &placed;
+  }
+  return refuse("the scene has no projector \"" + name + "\" that is turned on");
+}
+
+Result<std::optional<glm::dvec2>> Renderer::slide_from_world(const std::string& projector,
+                                                             const glm::dvec3& point_ws) const {
+  return implementation_->find_projector(projector).map(
+      [&](const frame::PlacedLight* placed) { return frame::slide_from_world(*placed, point_ws); });
+}
+
+Result<glm::dvec3> Renderer::world_from_slide(const std::string& projector, glm::dvec2 slide,
+                                              double distance) const {
+  const Result<const frame::PlacedLight*> placed = implementation_->find_projector(projector);
+  if (!placed) return tl::unexpected(placed.error());
+  const std::optional<glm::dvec3> point = frame::world_from_slide(**placed, slide, distance);
+  if (!point) return refuse("the lens of \"" + projector + "\" throws that place nowhere");
+  return *point;
 }
 
 Result<std::vector<ShadowMapView>> Renderer::depth_map_views(const std::string& light) const {

@@ -6,6 +6,8 @@
 #include "laterna/image.h"
 #include "laterna/lamps.h"
 #include "laterna/light_color.h"
+#include "scene/rig_distortion.h"
+#include "scene/rig_frustum.h"
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
 #include "scene/rig_shadows.h"
@@ -267,10 +269,12 @@ class LightReader {
                                                       {"mirror", Outside::mirror}})
                          .value_or(light_.outside);
     read_panel();
-    const std::optional<double> slide_aspect = aspect_for_horizontal_field();
-    if (const auto frustum = read_frustum(json_, object_, faults_, slide_aspect)) {
+    object_.any("distortion");
+    const std::optional<double> slide_aspect = aspect_for_lens();
+    if (const auto frustum = read_frustum(json_, object_, faults_, FrustumOf::projector, slide_aspect)) {
       light_.projection = frustum->projection;
       light_.aspect_from_slide = !frustum->aspect_is_given && !slide_aspect;
+      read_rig_distortion(json_, object_, faults_, light_);
     }
   }
 
@@ -304,10 +308,11 @@ class LightReader {
     return static_cast<int>(pictures_.size()) - 1;
   }
 
-  // A horizontal field of view leaves the vertical one to the slide's shape, so the slide's header is read
-  // now. Elsewhere the renderer fits the width when it has decoded the slide.
-  std::optional<double> aspect_for_horizontal_field() {
-    if (!object_.has("hfov_deg") || object_.has("aspect")) return std::nullopt;
+  // A horizontal field of view leaves the vertical one to the slide's shape, and a lens distorts a frame of some
+  // shape, so the slide's header is read now. Elsewhere the renderer fits the width when it has decoded the slide.
+  std::optional<double> aspect_for_lens() {
+    const bool distorts = object_.has("distortion") && !object_.has("aspect") && !object_.has("intrinsics");
+    if (!distorts && !needs_aspect_of_picture(object_)) return std::nullopt;
     if (light_.slide < 0) return 1;
     const Picture& picture = pictures_.back();
     const Result<ImageHeader> header = read_image_header(picture.file);

@@ -5,6 +5,7 @@
 #include "scene/fault_list.h"
 #include "scene/json_document.h"
 #include "scene/json_object.h"
+#include "scene/rig_frustum.h"
 #include "scene/rig_lights.h"
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
@@ -68,7 +69,7 @@ class RigReader {
     camera.name = object.string("name").value_or("");
     if (object.has("name") && camera.name.empty()) object.error("name", "is empty");
     const std::optional<glm::dmat4> pose = read_pose(object);
-    if (const auto frustum = read_frustum(json_, object, faults_, std::nullopt)) {
+    if (const auto frustum = read_frustum(json_, object, faults_, FrustumOf::camera, std::nullopt)) {
       camera.projection = frustum->projection;
       camera.aspect_from_picture = !frustum->aspect_is_given;
     }

@@ -98,6 +98,7 @@ class Validator {
   void check_light(const Light& light, const std::string& place);
   void check_panel(const Light& light, const std::string& place);
   void check_distribution(const Light& light, const std::string& place);
+  void check_distortion(const Light& light, const std::string& place);
   void check_source(const Light& light, const std::string& place);
   void check_shadow(const ShadowSettings& shadow, const std::string& place);
   void check_plane(const ShadowPlane& plane, const std::string& place);
@@ -355,6 +356,7 @@ void Validator::check_light(const Light& light, const std::string& place) {
     fault(place + ".projection", "a directional light's projection must be orthographic");
   }
   check_panel(light, place);
+  check_distortion(light, place + ".distortion");
   check_source(light, place + ".source");
   check_shadow(light.shadow, place + ".shadow");
   if (std::string message = find_fault(light.shadow.depth, light); !message.empty())
@@ -394,6 +396,21 @@ void Validator::check_distribution(const Light& light, const std::string& place)
                              kMaxCandela)
     message = fmt::format("its candela times the light's intensity are more than {}", kMaxCandela);
   if (!message.empty()) fault(place, std::move(message));
+}
+
+void Validator::check_distortion(const Light& light, const std::string& place) {
+  if (light.distortion.is_none() || !find_fault(light.projection).empty()) return;
+  if (light.type != LightType::projector) return fault(place, "only a projector has a lens that distorts");
+  if (light.aspect_from_slide) {
+    return fault(place,
+                 "needs a frame of a known shape: set aspect_from_slide to false, and the slide's aspect in "
+                 "the projection");
+  }
+  if (std::string message = find_fault(light.distortion, light.projection); !message.empty())
+    fault(place, std::move(message));
+  // Which directions its bright parts go to is the lens's affair.
+  if (light.slide_is_intensity && light.lumens)
+    fault(place, "an intensity map behind a lens that distorts is given in candela, not lumens");
 }
 
 void Validator::check_source(const Light& light, const std::string& place) {

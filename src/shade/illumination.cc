@@ -53,6 +53,7 @@ BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterVie
     const glm::dmat4 m = glm::transpose(placed.view.image_from_world());
     slide_position = {shadow::ProjectedRow(m[0], ray), shadow::ProjectedRow(m[1], ray),
                       shadow::ProjectedRow(m[3], ray)};
+    if (placed.lens) lens.emplace(*placed.lens);
     slide_sampler.wrap_u = slide_sampler.wrap_v = wrap_of(light->outside);
   }
 }

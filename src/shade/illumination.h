@@ -7,6 +7,7 @@
 
 #include "frame/frame.h"
 #include "laterna/shading.h"
+#include "shade/bound_lens.h"
 #include "shade/surface_points.h"
 #include "shadow/projected_view.h"
 #include "shadow/shadow_technique.h"
@@ -29,7 +30,9 @@ struct BoundLight {
   float right_ws[3], up_ws[3];
 
   // Projectors.
-  shadow::ProjectedView slide_position;  // (s, t), (0, 0) the slide's top-left corner
+  // (s, t), (0, 0) the top-left corner of the slide, or of the image of the beam that a distorting lens throws.
+  shadow::ProjectedView slide_position;
+  std::optional<BoundLens> lens;
   shadow::ProjectedRow homogeneous;
   bool is_orthographic = false;
   bool is_flat_field = true;

@@ -13,6 +13,7 @@
 #include "image/texture_lookup-inl.h"
 #include "shade/illumination.h"
 #include "shade/lamp_lookup-inl.h"
+#include "shade/slide_lens-inl.h"
 #include "shadow/projected_view-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -141,10 +142,11 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
     f.u = hn::IfThenElse(valid, hn::Load(d, coordinates->s.data() + i), f.u);
     f.v = hn::IfThenElse(valid, hn::Load(d, coordinates->t.data() + i), f.v);
   }
+  auto shines = point.is_ahead;
+  if (light.lens) shines = hn::And(shines, PassLens(*light.lens, f));
   const auto in_frame = hn::And(hn::And(f.u >= zero, f.u <= one), hn::And(f.v >= zero, f.v <= one));
   const Vector3 from_light = Load3(samples.x_ws, samples.y_ws, samples.z_ws, i) - Splat3(light.position_ws);
   const auto along = Dot(from_light, Splat3(light.forward_ws));
-  auto shines = point.is_ahead;
   // Parallel light comes from the lens too, or from where its frustum begins behind it (row 58).
   if (light.is_orthographic) {
     const double lens = std::min(light.light->projection.near, 0.0);

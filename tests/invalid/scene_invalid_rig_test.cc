@@ -72,7 +72,8 @@ const RigCase kRigCases[] = {
     {"CameraIncomplete", "{\"cameras\": [\n{}]}",
      "r.json: line 2: cameras[0].position: is missing\n"
      "r.json: line 2: cameras[0].target: is missing\n"
-     "r.json: line 2: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"intrinsics\", \"orthographic\""},
+     "r.json: line 2: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
+     "\"intrinsics\", \"orthographic\""},
     {"CameraLooksNowhere",
      "{\"cameras\": [{\"position\": [1, 2, 3],\n\"target\": [1, 2, 3], \"yfov_deg\": 40}]}",
      "r.json: line 2: cameras[0].target: is the same point as position: there is no direction to look in"},
@@ -92,9 +93,11 @@ const RigCase kRigCases[] = {
     {"FieldOfViewWord", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": \"40\"}]}",
      "r.json: line 1: cameras[0].yfov_deg: expected a number between 0 and 180, got \"40\""},
     {"FieldOfViewMissing", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0]}]}",
-     "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"intrinsics\", \"orthographic\""},
+     "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
+     "\"intrinsics\", \"orthographic\""},
     {"FieldOfViewMisspelt", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0],\n\"yfov\": 40}]}",
-     "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"intrinsics\", \"orthographic\"\n"
+     "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
+     "\"intrinsics\", \"orthographic\"\n"
      "r.json: line 2: cameras[0].yfov: a camera has no key \"yfov\" (did you mean \"yfov_deg\"?)"},
     {"FieldOfViewTwice",
      "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 40,\n\"hfov_deg\": 50, "
@@ -281,7 +284,75 @@ const RigCase kRigCases[] = {
      "r.json: line 2: lights[0].profile: has no effect: an intensity_map says itself how the beam spreads"},
     {"ProjectorWithoutFrustum",
      "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0]}]}",
-     "r.json: line 1: lights[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"intrinsics\", \"orthographic\""},
+     "r.json: line 1: lights[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
+     "\"intrinsics\", \"orthographic\", \"throw_ratio\""},
+    {"ThrowRatioAndField",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"throw_ratio\": 1.5}]}",
+     "r.json: line 1: lights[0].throw_ratio: only one of \"yfov_deg\" and \"throw_ratio\" may be given"},
+    {"ThrowRatioZero",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"throw_ratio\": "
+     "0}]}",
+     "r.json: line 1: lights[0].throw_ratio: expected a number greater than 0, got 0"},
+    {"ThrowRatioOfACamera",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"throw_ratio\": 1.5}]}",
+     "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
+     "\"intrinsics\", \"orthographic\"\n"
+     "r.json: line 1: cameras[0].throw_ratio: a camera has no key \"throw_ratio\""},
+    {"FocalLengthAlone",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], "
+     "\"focal_length_mm\": 50}]}",
+     "r.json: line 1: lights[0].focal_length_mm: needs \"sensor_mm\" beside it: width, or [width, height]"},
+    {"SensorAlone",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"sensor_mm\": 36}]}",
+     "r.json: line 1: lights[0].sensor_mm: needs \"focal_length_mm\" beside it"},
+    {"SensorOfThreeSides",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], "
+     "\"focal_length_mm\": 50, \"sensor_mm\": [36, 24, 1]}]}",
+     "r.json: line 1: lights[0].sensor_mm: expected an array of 2 numbers, got an array of 3"},
+    {"SensorAndAspect",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], "
+     "\"focal_length_mm\": 50, \"sensor_mm\": [36, 24], \"aspect\": 1.5}]}",
+     "r.json: line 1: lights[0].aspect: follows from the sensor's width and height"},
+    {"FocalLengthOfACameraOfNoShape",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"focal_length_mm\": 50, \"sensor_mm\": "
+     "36}]}",
+     "r.json: line 1: cameras[0].focal_length_mm: needs \"aspect\" (width / height) beside it"},
+    {"LensShiftHuge",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"lens_shift\": [0, 1000]}]}",
+     "r.json: line 1: lights[0].lens_shift[1]: expected a number from -100 to 100, got 1000"},
+    {"LensShiftOfIntrinsics",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"lens_shift\": "
+     "[0, 0.5], \"intrinsics\": {\"fx\": 1, \"fy\": 1, \"cx\": 0, \"cy\": 0, \"width\": 2, \"height\": 1}}]}",
+     "r.json: line 1: lights[0].lens_shift: follows from the intrinsics' cx and cy"},
+    {"DistortionOfACamera",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 30, \"distortion\": {\"k1\": "
+     "0.1}}]}",
+     "r.json: line 1: cameras[0].distortion: a camera has no key \"distortion\""},
+    {"DistortionOfThree",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"distortion\": [0.1, 0.2, 0.3]}]}",
+     "r.json: line 1: lights[0].distortion: expected 4 or 5 numbers: k1, k2, p1, p2 and k3, as OpenCV orders "
+     "them"},
+    {"DistortionMisspelt",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"distortion\": {\"k4\": 0.1}}]}",
+     "r.json: line 1: lights[0].distortion.k4: a distortion has no key \"k4\" (did you mean \"k1\"?)"},
+    {"DistortionHuge",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
+     "\"distortion\": {\"k1\": 1e9}}]}",
+     "r.json: line 1: lights[0].distortion.k1: expected a number from -1000000 to 1000000, got 1000000000"},
+    {"DistortionOfParallelLight",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"orthographic\": "
+     "{\"height\": 2}, \"far\": 9, \"distortion\": {\"k1\": 0.1}}]}",
+     "r.json: line 1: lights[0].distortion: only a perspective frame has a lens that distorts"},
+    {"DistortionThatFolds",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 90, "
+     "\"aspect\": 1,\n\"distortion\": {\"k1\": -0.3}}]}",
+     "r.json: line 2: lights[0].distortion: cannot be inverted: it folds back 46.51 degrees off the lens "
+     "axis (tangent 1.054), so that the slide's point (0, 0), from its top-left corner, is thrown nowhere"},
     {"CandelaHuge", "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"candela\": 1e300}]}",
      "r.json: line 1: lights[0].candela: expected a number from 0 to 1000000000000, got 1e+300"},
     {"SlideAndMap",
