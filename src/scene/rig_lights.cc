@@ -200,10 +200,27 @@ class LightReader {
                                                       {"repeat", Outside::repeat},
                                                       {"mirror", Outside::mirror}})
                          .value_or(light_.outside);
+    read_aperture();
     const std::optional<double> slide_aspect = aspect_for_horizontal_field();
     if (const auto frustum = read_frustum(json_, object_, faults_, slide_aspect)) {
       light_.projection = frustum->projection;
       light_.aspect_from_slide = !frustum->aspect_is_given && !slide_aspect;
+    }
+  }
+
+  void read_aperture() {
+    Aperture& aperture = light_.aperture;
+    aperture.radius = object_.number("aperture_radius", kLength).value_or(0);
+    const NumberRange in_focus{kNearestFocus, kMaxCoordinate, false, false};
+    if (const auto focus = object_.number("focus", in_focus)) aperture.focal_distance = *focus;
+    if (object_.has("focus") && !object_.has("aperture_radius"))
+      object_.error("focus", "needs \"aperture_radius\" beside it: through a pinhole all is in focus");
+    if (!(aperture.radius > 0)) return;
+    if (object_.has("orthographic"))
+      object_.error("aperture_radius", "a parallel projector has no lens to open");
+    for (const std::string_view name : {"radius", "size"}) {
+      if (object_.has(name))
+        object_.error(name, "the light shines from its lens: give either this or aperture_radius");
     }
   }
 

@@ -97,6 +97,7 @@ class Validator {
   void check_lights();
   void check_light(const Light& light, const std::string& place);
   void check_source(const Light& light, const std::string& place);
+  void check_aperture(const Light& light, const std::string& place);
   void check_shadow(const ShadowSettings& shadow, const std::string& place);
   void check_plane(const ShadowPlane& plane, const std::string& place);
   void check_whole_scene();
@@ -317,6 +318,7 @@ void Validator::check_light(const Light& light, const std::string& place) {
     fault(place + ".projection", "a directional light's projection must be orthographic");
   }
   check_source(light, place + ".source");
+  check_aperture(light, place + ".aperture");
   check_shadow(light.shadow, place + ".shadow");
   if (std::string message = find_fault(light.shadow.depth, light); !message.empty())
     fault(place + ".shadow.depth", std::move(message));
@@ -328,6 +330,20 @@ void Validator::check_light(const Light& light, const std::string& place) {
     if (std::string message = find_fault(*light.shadow.technique, light); !message.empty())
       fault(place + ".shadow.technique", std::move(message));
   }
+}
+
+void Validator::check_aperture(const Light& light, const std::string& place) {
+  const Aperture& aperture = light.aperture;
+  check_number(place + ".radius", aperture.radius, 0, kMaxCoordinate);
+  if (!(aperture.focal_distance >= kNearestFocus)) {
+    fault(place + ".focal_distance",
+          fmt::format("expected at least {} m, got {}", kNearestFocus, aperture.focal_distance));
+  }
+  if (!(aperture.radius > 0)) return;
+  if (light.type != LightType::projector || light.projection.is_orthographic)
+    fault(place + ".radius", "only a projector with perspective has a lens to open");
+  if (light.source.has_size())
+    fault(place + ".radius", "the light shines from its lens: leave out the source's size");
 }
 
 void Validator::check_source(const Light& light, const std::string& place) {

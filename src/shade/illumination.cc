@@ -50,6 +50,10 @@ BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterVie
     slide_position = {shadow::ProjectedRow(m[0], ray), shadow::ProjectedRow(m[1], ray),
                       shadow::ProjectedRow(m[3], ray)};
     slide_sampler.wrap_u = slide_sampler.wrap_v = wrap_of(light->outside);
+    const Projection& frame = placed.view.projection;
+    blur_s = static_cast<float>(light->aperture.radius / (frame.right - frame.left));
+    blur_t = static_cast<float>(light->aperture.radius / (frame.top - frame.bottom));
+    inverse_focus = static_cast<float>(1 / light->aperture.focal_distance);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "base/vectors-inl.h"
+#include "image/disc_lookup-inl.h"
 #include "image/texture_lookup-inl.h"
 #include "shade/illumination.h"
 #include "shadow/projected_view-inl.h"
@@ -30,6 +31,8 @@ HWY_INLINE Vector3 Load3(const Samples& x, const Samples& y, const Samples& z, s
 }
 
 // ---------------------------------------------------------------------------------------------- arriving light
+
+HWY_INLINE Vector3 Multiply(const Vector3& a, const Vector3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 // What a light sends to N points: colour, direction, and where it shines at all.
 struct Arriving {
@@ -123,6 +126,70 @@ HWY_INLINE SlidePoint FindSlidePoint(const BoundLight& light, const shadow::Surf
   return point;
 }
 
+// What a slide out of focus throws on points, and where it throws anything.
+struct BlurredSlide {
+  Vector3 colour;
+  FloatMask shines;
+};
+
+image::HWY_NAMESPACE::Beyond BeyondOf(Outside outside) {
+  using image::HWY_NAMESPACE::Beyond;
+  switch (outside) {
+    case Outside::clamp:
+      return Beyond::clamp;
+    case Outside::repeat:
+      return Beyond::repeat;
+    case Outside::mirror:
+      return Beyond::mirror;
+    case Outside::black:
+      break;
+  }
+  return Beyond::black;
+}
+
+// The mean of the slide as every point of the lens throws it on points at distance `along`: a disc of the slide (row 13).
+// Discs less than some texels, or pixels, wide are mixed from the slide in focus and a disc that is as wide, so that the
+// variance of the blur is right.
+HWY_NOINLINE BlurredSlide FindBlurredSlide(const BoundLight& light, const Footprint& f, FloatVector along,
+                                           FloatMask in_frame) {
+  constexpr float kNarrowest = 1.5F;  // texels or pixels in radius
+  const FloatTag d;
+  const auto zero = Splat(0.0F), one = Splat(1.0F), half = Splat(0.5F);
+  const bool is_black = light.light->outside == Outside::black;
+  const auto width = Splat(light.slide != nullptr ? static_cast<float>(light.slide->width()) : 1.0F);
+  const auto height = Splat(light.slide != nullptr ? static_cast<float>(light.slide->height()) : 1.0F);
+  const auto defocus = hn::Abs(Splat(light.inverse_focus) - one / hn::Max(along, Splat(1e-6F)));
+  const auto radius_u = Splat(light.blur_s) * defocus, radius_v = Splat(light.blur_t) * defocus;
+  const auto radius = hn::Max(hn::Max(radius_u * width, radius_v * height), Splat(1e-20F));
+
+  // The pixel's side, in texels, where as many probes as may be share out the longer one.
+  const auto ux = f.du_dx * width, vx = f.dv_dx * height, uy = f.du_dy * width, vy = f.dv_dy * height;
+  const auto x_squared = ux * ux + vx * vx, y_squared = uy * uy + vy * vy;
+  const auto most = static_cast<float>(light.anisotropy);
+  const auto pixel_squared = hn::Max(hn::Min(x_squared, y_squared),
+                                     hn::Max(x_squared, y_squared) * Splat(1.0F / (most * most)));
+  const auto texel = Splat(light.slide != nullptr ? 1.0F : 0.0F);
+  const auto unit = hn::Max(texel, hn::Sqrt(hn::Min(pixel_squared, Splat(1e20F))));
+  const auto narrowest = Splat(kNarrowest) * unit;
+  const auto widening = hn::Max(narrowest / radius, one);
+  const auto share = one / (widening * widening);
+  const image::HWY_NAMESPACE::Disc disc = {f.u, f.v, radius_u * widening, radius_v * widening};
+
+  BlurredSlide blurred;
+  // Weights end at less than 3/2 radii.
+  const auto reach_u = half + Splat(1.5F) * disc.radius_u, reach_v = half + Splat(1.5F) * disc.radius_v;
+  blurred.shines = hn::And(hn::Abs(f.u - half) <= reach_u, hn::Abs(f.v - half) <= reach_v);
+  if (!is_black) blurred.shines = zero <= zero;
+  if (hn::AllFalse(d, blurred.shines)) return {{zero, zero, zero}, blurred.shines};
+  blurred.colour = image::HWY_NAMESPACE::LookUpDisc(light.slide, BeyondOf(light.light->outside), disc);
+  if (hn::AllTrue(d, share == one)) return blurred;
+  Vector3 sharp = {one, one, one};
+  if (light.slide != nullptr) sharp = LookUp(*light.slide, light.slide_sampler, light.anisotropy, f);
+  if (is_black) sharp = image::HWY_NAMESPACE::Where(in_frame, sharp);
+  blurred.colour = blurred.colour * share + sharp * (one - share);
+  return blurred;
+}
+
 HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::SurfaceSamples& samples,
                                   const SlideCoordinates* coordinates, Irradiance& irradiance,
                                   std::size_t i) {
@@ -144,10 +211,18 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
     const double lens = std::min(light.light->projection.near, 0.0);
     shines = hn::And(shines, along > Splat(static_cast<float>(lens)));
   }
-  if (light.light->outside == Outside::black) shines = hn::And(shines, in_frame);
+  const auto is_thrown = light.light->outside == Outside::black ? hn::And(shines, in_frame) : shines;
   const auto nan = Splat(std::numeric_limits<float>::quiet_NaN());
-  hn::Store(hn::IfThenElse(shines, f.u, nan), d, irradiance.slide_s.data() + i);
-  hn::Store(hn::IfThenElse(shines, f.v, nan), d, irradiance.slide_t.data() + i);
+  hn::Store(hn::IfThenElse(is_thrown, f.u, nan), d, irradiance.slide_s.data() + i);
+  hn::Store(hn::IfThenElse(is_thrown, f.v, nan), d, irradiance.slide_t.data() + i);
+  const bool is_blurred = light.blur_s > 0;
+  BlurredSlide blurred;
+  if (HWY_UNLIKELY(is_blurred)) {
+    blurred = FindBlurredSlide(light, f, along, in_frame);
+    shines = hn::And(shines, blurred.shines);
+  } else {
+    shines = is_thrown;
+  }
   if (hn::AllFalse(d, shines)) return {Splat3(light.color), Splat3(light.forward_ws), shines};
 
   Arriving arriving;
@@ -173,7 +248,9 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
     }
   }
   arriving.color = Splat3(light.color) * intensity;
-  if (light.slide != nullptr) {
+  if (is_blurred) {
+    arriving.color = Multiply(arriving.color, blurred.colour);
+  } else if (light.slide != nullptr) {
     const Vector3 t = LookUp(*light.slide, light.slide_sampler, light.anisotropy, f);
     arriving.color = {arriving.color.x * t.x, arriving.color.y * t.y, arriving.color.z * t.z};
   }
@@ -226,8 +303,6 @@ HWY_INLINE void Store3(const Vector3& v, Radiance& radiance, std::size_t i) {
   hn::Store(v.y, d, radiance.g.data() + i);
   hn::Store(v.z, d, radiance.b.data() + i);
 }
-
-HWY_INLINE Vector3 Multiply(const Vector3& a, const Vector3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 void find_ambient(const ReflectionSettings& settings, const frame::Surface& surface, std::size_t groups,
                   const SurfacePoints& points, Radiance& radiance) {
