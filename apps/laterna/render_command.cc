@@ -147,21 +147,11 @@ nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double
                            {"silhouettes", light.silhouettes},
                            {"silhouettes_drawn", light.silhouettes_drawn}});
   }
-  return {{"load_ms", load_ms},
-          {"plan_ms", s.plan_ms},
-          {"shadow_ms", s.shadow_ms},
-          {"bin_ms", s.bin_ms},
-          {"shade_ms", s.shade_ms},
-          {"render_ms", s.total_ms},
-          {"write_ms", write_ms},
-          {"triangles", s.triangles},
-          {"triangles_drawn", s.triangles_drawn},
-          {"maps_drawn", s.maps_drawn},
-          {"maps_kept", s.maps_kept},
-          {"silhouettes", silhouettes},
-          {"shadow_memory", memory},
-          {"pictures", s.pictures},
-          {"noise", s.noise}};
+  return {{"load_ms", load_ms},         {"plan_ms", s.plan_ms},     {"shadow_ms", s.shadow_ms},
+          {"bin_ms", s.bin_ms},         {"shade_ms", s.shade_ms},   {"render_ms", s.total_ms},
+          {"write_ms", write_ms},       {"triangles", s.triangles}, {"triangles_drawn", s.triangles_drawn},
+          {"maps_drawn", s.maps_drawn}, {"maps_kept", s.maps_kept}, {"silhouettes", silhouettes},
+          {"shadow_memory", memory},    {"pictures", s.pictures},   {"noise", s.noise}};
 }
 
 /// A lamp with a size and a lens that is open throw soft shadows, but most techniques see their middle alone.

@@ -63,10 +63,10 @@ class DiscLookup {
   }
 
  private:
-  static constexpr float kFinest = 4;   // texels
-  static constexpr float kBlend = 4;    // 1 / the share of an octave
+  static constexpr float kFinest = 4;      // texels
+  static constexpr float kBlend = 4;       // 1 / the share of an octave
   static constexpr float kFarthest = 256;  // pictures
-  static constexpr float kLargest = 8;  // texels; larger discs, of the last level, are dimmed instead
+  static constexpr float kLargest = 8;     // texels; larger discs, of the last level, are dimmed instead
   // Beyond the rim, where weights fall from 1 to 0. As wide as a tent of two texels (bilinear filtering) is to its variance.
   static constexpr float kRim = 1.41421356F;
 

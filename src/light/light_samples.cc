@@ -67,8 +67,7 @@ glm::dvec3 offset_ws(const LightSource& source, const Pose& pose, SampleIndex sa
 
 // Light from another point of the disc in the sky.
 void turn(Pose& pose, const LightSource& source, SampleIndex sample) {
-  const glm::dvec2 at =
-      tangent(0.5 * source.angular_diameter.in_radians()) * in_disc(sample);
+  const glm::dvec2 at = tangent(0.5 * source.angular_diameter.in_radians()) * in_disc(sample);
   const glm::dvec3 forward = pose.forward_ws() + at.x * pose.right_ws() + at.y * pose.up_ws();
   pose.world_from_view_rotation = Pose::look_at({0, 0, 0}, forward, pose.up_ws())->world_from_view_rotation;
 }

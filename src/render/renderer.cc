@@ -378,7 +378,8 @@ Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const 
     return tl::unexpected(checked.error());
   if (Result<void> checked = render::check_technique(settings.shadows, frame); !checked)
     return tl::unexpected(checked.error());
-  Result<render::PictureWriter> writer = render::PictureWriter::create(settings, destination.target, frame, set);
+  Result<render::PictureWriter> writer =
+      render::PictureWriter::create(settings, destination.target, frame, set);
   if (!writer) return tl::unexpected(std::move(writer.error()));
 
   const Drawing drawing(*this);

@@ -166,8 +166,8 @@ HWY_NOINLINE BlurredSlide FindBlurredSlide(const BoundLight& light, const Footpr
   const auto ux = f.du_dx * width, vx = f.dv_dx * height, uy = f.du_dy * width, vy = f.dv_dy * height;
   const auto x_squared = ux * ux + vx * vx, y_squared = uy * uy + vy * vy;
   const auto most = static_cast<float>(light.anisotropy);
-  const auto pixel_squared = hn::Max(hn::Min(x_squared, y_squared),
-                                     hn::Max(x_squared, y_squared) * Splat(1.0F / (most * most)));
+  const auto pixel_squared =
+      hn::Max(hn::Min(x_squared, y_squared), hn::Max(x_squared, y_squared) * Splat(1.0F / (most * most)));
   const auto texel = Splat(light.slide != nullptr ? 1.0F : 0.0F);
   const auto unit = hn::Max(texel, hn::Sqrt(hn::Min(pixel_squared, Splat(1e20F))));
   const auto narrowest = Splat(kNarrowest) * unit;

@@ -22,7 +22,8 @@ double discrepancy(const std::vector<glm::dvec2>& points) {
     for (int j = 1; j <= 32; ++j) {
       const double x = i / 32.0, y = j / 32.0;
       const auto inside = std::ranges::count_if(points, [&](glm::dvec2 p) { return p.x < x && p.y < y; });
-      worst = std::max(worst, std::abs(static_cast<double>(inside) / static_cast<double>(points.size()) - x * y));
+      worst =
+          std::max(worst, std::abs(static_cast<double>(inside) / static_cast<double>(points.size()) - x * y));
     }
   }
   return worst;
@@ -48,7 +49,8 @@ TEST(Accumulation, EveryTwoDimensionsFillTheirSquare) {
       for (int b = a + 1; b < 4; ++b) {
         std::vector<glm::dvec2> points;
         for (int i = 0; i < count; ++i)
-          points.emplace_back(numbers(a)[static_cast<std::size_t>(i)], numbers(b)[static_cast<std::size_t>(i)]);
+          points.emplace_back(numbers(a)[static_cast<std::size_t>(i)],
+                              numbers(b)[static_cast<std::size_t>(i)]);
         EXPECT_LT(discrepancy(points), 0.6 / std::sqrt(count)) << count << ' ' << a << ' ' << b;
       }
     }
