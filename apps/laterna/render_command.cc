@@ -52,9 +52,9 @@ struct RenderOptions {
               depth = "auto";
   std::string exposure = "0", background, debug, false_color;
   std::vector<std::string> layers;
-  int samples = 1, anisotropy = 8, light_samples = 1;
+  int samples = 1, anisotropy = 8, accumulate = 1;
   double noise = 0;
-  bool json = false;
+  bool progressive = false, json = false;
 };
 
 void list_all_techniques() {
@@ -79,7 +79,7 @@ Result<RenderSettings> parse_settings(const RenderOptions& options) {
   settings.height = size->height;
   settings.samples = options.samples;
   settings.anisotropy = options.anisotropy;
-  settings.light_samples = options.light_samples;
+  settings.accumulate = options.accumulate;
   settings.noise = options.noise;
   settings.shading = kShading.at(options.shading);
   settings.passes = kPasses.at(options.passes);
@@ -155,33 +155,24 @@ nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double
                            {"silhouettes", light.silhouettes},
                            {"silhouettes_drawn", light.silhouettes_drawn}});
   }
-  return {{"load_ms", load_ms},
-          {"plan_ms", s.plan_ms},
-          {"shadow_ms", s.shadow_ms},
-          {"bin_ms", s.bin_ms},
-          {"shade_ms", s.shade_ms},
-          {"render_ms", s.total_ms},
-          {"write_ms", write_ms},
-          {"triangles", s.triangles},
-          {"triangles_drawn", s.triangles_drawn},
-          {"maps_drawn", s.maps_drawn},
-          {"maps_kept", s.maps_kept},
-          {"silhouettes", silhouettes},
-          {"shadow_memory", memory},
-          {"light_samples", s.light_samples},
-          {"noise", s.noise}};
+  return {{"load_ms", load_ms},         {"plan_ms", s.plan_ms},     {"shadow_ms", s.shadow_ms},
+          {"bin_ms", s.bin_ms},         {"shade_ms", s.shade_ms},   {"render_ms", s.total_ms},
+          {"write_ms", write_ms},       {"triangles", s.triangles}, {"triangles_drawn", s.triangles_drawn},
+          {"maps_drawn", s.maps_drawn}, {"maps_kept", s.maps_kept}, {"silhouettes", silhouettes},
+          {"shadow_memory", memory},    {"pictures", s.pictures},   {"noise", s.noise}};
 }
 
-/// A lamp with a size throws soft shadows, but most techniques see its middle alone.
+/// A lamp with a size and a lens that is open throw soft shadows, but most techniques see their middle alone.
 void advise_softness(const Scene& scene, ShadowTechnique for_all) {
   for (const Light& light : scene.lights) {
-    const ShadowTechnique technique = light.shadow.technique.value_or(for_all);
+    const ShadowTechnique technique = technique_of(light, for_all);
     const bool is_hard = technique != ShadowTechnique::pcss && technique != ShadowTechnique::none;
-    if (!light.enabled || !light.source.has_size() || !is_hard) continue;
+    const bool is_wide = light.source.has_size() || light.aperture.radius > 0;
+    if (!light.enabled || !is_wide || !is_hard) continue;
     fmt::print(stderr,
-               "laterna: note: light \"{}\" has a size, but its shadows are hard: try --shadows pcss, or "
-               "--light-samples 64\n",
-               light.name);
+               "laterna: note: light \"{}\" has {}, but its shadows are hard: try --shadows pcss, or "
+               "--accumulate 64\n",
+               light.name, light.source.has_size() ? "a size" : "an aperture");
   }
 }
 
@@ -243,6 +234,8 @@ class RenderCommand {
     if (has_passes && settings.passes != Passes::multi) return "--layers passes needs --passes multi";
     if (false_color_ && (debug_ || !options_.layers.empty() || !options_.layer_pictures.empty()))
       return "--false-colour takes the picture's place: leave --debug, --layers and --layer-pictures out";
+    if (options_.progressive && options_.output == "-")
+      return "--progressive and -o - would write several pictures to standard output";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
     if (!settings.layers.empty() && !keeps_layers(options_.output) && options_.layer_pictures.empty()) {
       return "--layers: only OpenEXR holds layers: give an output that ends in .exr, or --layer-pictures "
@@ -253,72 +246,101 @@ class RenderCommand {
 
   int draw(const Renderer& renderer, const View& view, const RenderSettings& settings, float exposure) {
     RenderStatistics statistics;
-    Result<LayeredImage> image = draw_image(renderer, view, settings, statistics);
+    settings_ = settings;
+    threads_ = renderer.threads();
+    Result<LayeredImage> image = draw_image(renderer, view, settings, exposure, statistics);
     if (!image) return report(image.error());
-    WriteOptions write;
-    write.depth = kDepth.at(options_.depth);
-    write.threads = renderer.threads();
-    const bool is_debug = debug_.has_value() || false_color_.has_value();
-    // In half precision the lights' layers would no longer add up to beauty.
-    const bool has_light_layers = std::ranges::find(settings.layers, Layer::light) != settings.layers.end();
-    if (has_light_layers && keeps_layers(options_.output) && options_.depth == "auto") {
-      write.depth = WriteOptions::Depth::single;
-    }
-    if (!is_debug) {
-      write.exposure = exposure == 0 ? automatic_exposure(*image) : exposure;
-      if (!keeps_layers(options_.output)) advise_exposure(*image, write.exposure);
+    if (shows_light()) {
+      if (exposure == 0) exposure = automatic_exposure(*image);
+      if (!keeps_layers(options_.output)) advise_exposure(*image, exposure);
+    } else {
+      exposure = 1;
     }
     const auto write_start = std::chrono::steady_clock::now();
     if (!options_.layer_pictures.empty()) {
-      const Result<void> written = write_layer_pictures(*image, options_.layer_pictures, write.exposure);
+      const Result<void> written = write_layer_pictures(*image, options_.layer_pictures, exposure);
       if (!written) return report(written.error());
     }
-    // Formats for the screen hold neither layers nor, unless it was asked for, coverage.
-    if (!is_debug && !keeps_layers(options_.output)) {
-      image->channels.resize(options_.background == "transparent" ? 4 : 3);
-    }
-    if (Result<void> written = write_image(*image, options_.output, write); !written)
+    const int width = image->width, height = image->height;
+    if (Result<void> written = write_picture(std::move(*image), exposure); !written)
       return report(written.error());
     if (options_.json) {
       nlohmann::json json = statistics_json(statistics, load_ms_, elapsed(write_start));
       json["output"] = options_.output;
-      json["size"] = {image->width, image->height};
-      json["exposure"] = write.exposure;
+      json["size"] = {width, height};
+      json["exposure"] = exposure;
       fmt::print("{}\n", json.dump(2));
     }
     return kOk;
   }
 
   Result<LayeredImage> draw_image(const Renderer& renderer, const View& view, const RenderSettings& settings,
-                                  RenderStatistics& statistics) const {
+                                  float exposure, RenderStatistics& statistics) const {
     if (false_color_) return draw_false_color(renderer, view, settings, *false_color_, statistics);
-    if (!debug_) return draw_light(renderer, view, settings, statistics);
+    if (!debug_) return draw_light(renderer, view, settings, exposure, statistics);
     Result<ExplainedPicture> shown = draw_debug_picture(renderer, view, settings, *debug_, statistics);
     if (!shown) return tl::unexpected(std::move(shown.error()));
     for (const std::string& line : shown->legend) fmt::print(stderr, "laterna: {}\n", line);
     return std::move(shown->picture);
   }
 
-  static Result<LayeredImage> draw_light(const Renderer& renderer, const View& view,
-                                         const RenderSettings& settings, RenderStatistics& statistics) {
-    Result<LayeredImage> image = renderer.render(view, settings, progress_line("rendering"), &statistics);
-    if (!image) return image;
-    if (settings.light_samples == 1) {
-      advise_softness(renderer.scene(), settings.shadows);
-      return image;
+  Result<LayeredImage> draw_light(const Renderer& renderer, const View& view, const RenderSettings& settings,
+                                  float exposure, RenderStatistics& statistics) const {
+    Result<void> written;
+    Preview preview;
+    if (options_.progressive) {
+      preview = [&](const PartialMean& mean) {
+        if ((mean.pictures & (mean.pictures - 1)) != 0) return true;
+        mean.write();
+        written = write_picture(*mean.image, exposure == 0 ? automatic_exposure(*mean.image) : exposure);
+        if (written) tell_noise(mean.pictures, mean.noise);
+        return written.has_value();
+      };
     }
-    if (statistics.light_samples == 1) {
-      fmt::print(stderr, "laterna: note: --light-samples has no effect: no light has a size\n");
+    Result<LayeredImage> image =
+        renderer.render(view, settings, progress_line("rendering"), &statistics, preview);
+    if (!written) return tl::unexpected(written.error());
+    if (!image) return image;
+    if (settings.accumulate == 1) {
+      advise_softness(renderer.scene(), settings.shadows);
     } else {
-      fmt::print(stderr, "laterna: mean of {} pictures, estimated noise {:.2g} % of the mean luminance\n",
-                 statistics.light_samples, 100 * statistics.noise);
+      tell_noise(statistics.pictures, statistics.noise);
     }
     return image;
+  }
+
+  // Rather than explaining it.
+  [[nodiscard]] bool shows_light() const { return !debug_ && !false_color_; }
+
+  static void tell_noise(int pictures, double noise) {
+    fmt::print(stderr, "laterna: mean of {} pictures, estimated noise {:.2g} % of the mean luminance\n",
+               pictures, 100 * noise);
+  }
+
+  [[nodiscard]] WriteOptions write_options(float exposure) const {
+    WriteOptions write;
+    write.depth = kDepth.at(options_.depth);
+    // In half precision the lights' layers would no longer add up to beauty.
+    const bool has_light_layers = std::ranges::find(settings_.layers, Layer::light) != settings_.layers.end();
+    if (has_light_layers && keeps_layers(options_.output) && options_.depth == "auto")
+      write.depth = WriteOptions::Depth::single;
+    write.threads = threads_;
+    write.exposure = exposure;
+    return write;
+  }
+
+  // Formats for the screen hold neither layers nor, unless it was asked for, coverage.
+  [[nodiscard]] Result<void> write_picture(LayeredImage image, float exposure) const {
+    if (shows_light() && !keeps_layers(options_.output))
+      image.channels.resize(options_.background == "transparent" ? 4 : 3);
+    return write_image(image, options_.output, write_options(exposure));
   }
 
   const RenderOptions& options_;
   std::optional<DebugChoice> debug_;
   std::optional<FalseColorChoice> false_color_;
+  RenderSettings settings_;
+  int threads_ = 0;
   double load_ms_ = 0;
 };
 
@@ -343,11 +365,13 @@ void declare_picture_options(CLI::App& command, RenderOptions& o) {
       ->capture_default_str();
   command
       .add_option(
-          "--light-samples", o.light_samples,
-          "soft shadows: the mean of so many pictures, each lit from other points of the lights that\n"
-          "have a size (radius, size or angular_diameter_deg in a rig); best with --shadows exact")
+          "--accumulate", o.accumulate,
+          "the mean of so many pictures, which sample pixels at other places, are lit from other points\n"
+          "of lights with a size, and through other points of projectors' lenses; best with --shadows exact")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
+  command.add_flag("--progressive", o.progressive,
+                   "write the output after 1, 2, 4, 8, … accumulated pictures already");
   command
       .add_option("--noise", o.noise,
                   "stop averaging at this estimated noise, a fraction of the mean luminance; 0: never")

@@ -56,9 +56,9 @@ struct RenderSettings {
   Interpolation interpolation = Interpolation::perspective;
   int anisotropy = 8;  ///< most probes of a stretched texture footprint, 1…16
   std::vector<Layer> layers;
-  /// Soft shadows: where a light has a size, the picture is the mean of this many, each lit from other points of it. 1: from
-  /// its middle. 1…65536.
-  int light_samples = 1;
+  /// The picture is the mean of this many, which differ in where they sample each pixel, from where on a light with a size it
+  /// shines, and through which point of its lens a projector throws its slide. 1: one, from the middle of all. 1…65536.
+  int accumulate = 1;
   /// No more pictures than it takes for this estimated noise, a fraction of the mean luminance. 0: all.
   double noise = 0;
   bool keep_shadow_maps = true;  ///< false: drawn anew even where nothing has changed
@@ -84,6 +84,18 @@ struct RenderTarget {
   std::vector<ChannelTarget> channels;
 };
 
+/// A mean of pictures as far as it has come (RenderSettings::accumulate).
+struct PartialMean {
+  int pictures = 0;  ///< averaged so far
+  double noise = 0;  ///< as RenderStatistics::noise
+  /// Writes it where the picture goes, as if it were the last; costs little beside a picture. Valid during the call only.
+  std::function<void()> write;
+  /// What write() fills in, where Renderer::render() was called; with the caller's own memory null.
+  const LayeredImage* image = nullptr;
+};
+/// Called after each picture of a mean, from one thread; false: the mean of what there is will do.
+using Preview = std::function<bool(const PartialMean&)>;
+
 /// What a picture cost.
 struct RenderStatistics {
   // Phases, one after the other, by the clock:
@@ -100,7 +112,7 @@ struct RenderStatistics {
   std::uint64_t triangles = 0,
                 triangles_drawn = 0;  ///< of the camera's view: considered, and sorted into tiles
   int maps_drawn = 0, maps_kept = 0;  ///< shadow maps
-  int light_samples = 1;              ///< pictures that were averaged
+  int pictures = 1;                   ///< that were averaged
   /// Estimated standard error of the picture's luminance, over all pixels, as a fraction of its mean. 0 for one picture.
   double noise = 0;
   struct LightMemory {
@@ -176,10 +188,11 @@ class Renderer {
 
   /// Draws into the caller's memory. Shadow maps are kept from call to call while lights and casters stay.
   Result<RenderStatistics> render_into(const View& view, const RenderSettings& settings,
-                                       const RenderTarget& target, const Progress& progress = {}) const;
+                                       const RenderTarget& target, const Progress& progress = {},
+                                       const Preview& preview = {}) const;
   /// Draws all channels, with metadata. R, G, B are linear and unclamped; A is coverage, colour premultiplied by it.
   Result<LayeredImage> render(const View& view, const RenderSettings& settings, const Progress& progress = {},
-                              RenderStatistics* statistics = nullptr) const;
+                              RenderStatistics* statistics = nullptr, const Preview& preview = {}) const;
 
   /// Illuminance at points, light by light (laterna/probes.h). What shadows each light has is found by rays, whatever its
   /// technique; lights without shadows pass through everything here too. Error: a faulty probe or setting.

@@ -118,7 +118,7 @@ enum class Attenuation : std::uint8_t {
 };
 
 /// What a light shines from. Without size it is a point and shadows are hard; with it `pcss`, and pictures that average
-/// over the light (RenderSettings::light_samples), soften them.
+/// over the light (RenderSettings::accumulate), soften them.
 struct LightSource {
   double radius = 0;             ///< metres, of a ball; point, spot, projector
   double width = 0, height = 0;  ///< metres, of a rectangle in the light's own plane, in place of the ball
@@ -126,6 +126,18 @@ struct LightSource {
   [[nodiscard]] bool has_size() const {
     return radius > 0 || width > 0 || height > 0 || angular_diameter.in_radians() > 0;
   }
+};
+
+/// Metres: nearer than this no projector is in focus.
+inline constexpr double kNearestFocus = 1e-3;
+
+/// How wide a projector's lens is open: a thin lens, whose every point throws the slide so that all meet at the focal
+/// distance. Elsewhere, at distance d along the axis, a point of the slide is a disc of diameter 2 radius |d − focus| / focus
+/// (row 13). docs/focus.md
+struct Aperture {
+  double radius = 0;  ///< metres; 0: a pinhole, sharp at all distances
+  /// Metres along the axis from the lens to the plane on which the slide is sharp; infinity: far away.
+  double focal_distance = std::numeric_limits<double>::infinity();
 };
 
 struct Light {
@@ -166,6 +178,7 @@ struct Light {
   /// Projector with perspective; the frame's shape must then be its own (`aspect_from_slide` false). `projection` is the
   /// frame as it would be thrown without.
   LensDistortion distortion;
+  Aperture aperture;  ///< projector with perspective, in place of a `source` with a size
 
   /// Directional: the shadow map's frustum is fitted to the scene; otherwise `projection` (orthographic) holds it.
   bool fit = true;
@@ -173,6 +186,10 @@ struct Light {
   LightSource source;
   ShadowSettings shadow;
 };
+
+/// How a light's shadows are found in a picture that asks for `for_all`. A light's own technique counts; a projector that names
+/// none and has an Aperture gets `pcss` in place of `map`, so that its shadows are as soft as its slide.
+ShadowTechnique technique_of(const Light& light, ShadowTechnique for_all);
 
 /// Whether all its rays run the same way.
 bool is_parallel(const Light& light);

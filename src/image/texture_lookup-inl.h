@@ -123,7 +123,12 @@ struct ColourReader {
   // Most often the two are neighbours in memory, and one access reads both.
   HWY_INLINE Pair<UintVector> Fetch(IntVector row, const Taps& x, bool are_neighbours) const {
     if (HWY_LIKELY(are_neighbours)) return GatherNeighbours(row + x.low);
-    return {Gather(row + x.low), Gather(row + x.high)};
+    return {At(row + x.low), At(row + x.high)};
+  }
+  // One texel alone.
+  HWY_INLINE UintVector At(IntVector index) const {
+    const auto* texels = reinterpret_cast<const std::int32_t*>(chain.texels.data());
+    return hn::BitCast(UintTag(), hn::GatherIndex(IntTag(), texels, index));
   }
 
   static HWY_INLINE Vector3 Decoded(UintVector packed) {
@@ -153,15 +158,10 @@ struct ColourReader {
   }
 
  private:
-  HWY_INLINE UintVector Gather(IntVector index) const {
-    const auto* texels = reinterpret_cast<const std::int32_t*>(chain.texels.data());
-    return hn::BitCast(UintTag(), hn::GatherIndex(IntTag(), texels, index));
-  }
-
   // The texels at `index` and to their right: 64 bits at a time, first for the even lanes, then for the odd ones.
   HWY_INLINE Pair<UintVector> GatherNeighbours(IntVector index) const {
 #if HWY_TARGET == HWY_SCALAR  // has no vectors of 64-bit lanes half as long
-    return {Gather(index), Gather(index + SplatInt(1))};
+    return {At(index), At(index + SplatInt(1))};
 #else
     const UintTag du;
     const hn::Repartition<std::uint64_t, UintTag> du64;
@@ -185,13 +185,13 @@ struct ColourReader<TexelFormat::wide> {
   const MipChain& chain;
 
   HWY_INLINE Pair<Vector3> Fetch(IntVector row, const Taps& x, bool) const {
+    return {At(row + x.low), At(row + x.high)};
+  }
+  HWY_INLINE Vector3 At(IntVector index) const {
+    const FloatTag d;
     const float* r = chain.wide.data();
-    const auto read = [&](IntVector index) HWY_ATTR {
-      const FloatTag d;
-      return Vector3{hn::GatherIndex(d, r, index), hn::GatherIndex(d, r + chain.texel_count, index),
-                     hn::GatherIndex(d, r + std::size_t{2} * chain.texel_count, index)};
-    };
-    return {read(row + x.low), read(row + x.high)};
+    return {hn::GatherIndex(d, r, index), hn::GatherIndex(d, r + chain.texel_count, index),
+            hn::GatherIndex(d, r + std::size_t{2} * chain.texel_count, index)};
   }
   static HWY_INLINE Vector3 Decoded(const Vector3& colour) { return colour; }
   static HWY_INLINE Vector3 Scaled(const Vector3& colour) { return colour; }

@@ -103,6 +103,17 @@ ShadowView widened(ShadowView shadow, int border) {
   return shadow;
 }
 
+// Texels beyond a projector's frame, which its slide reaches where it is out of focus: at tangents up to radius |1/focus −
+// 1/d| more. As many as are reached from half the focal distance on, and a tenth of the frame for what is nearer.
+int focus_border(const PlacedLight& placed, int resolution) {
+  const Aperture& aperture = placed.light->aperture;
+  if (aperture.radius == 0) return 0;
+  const Projection& p = placed.view.projection;
+  const double blur = aperture.radius / aperture.focal_distance;
+  const double share = std::clamp(blur / std::min(p.right - p.left, p.top - p.bottom), 0.1, 0.5);
+  return static_cast<int>(std::ceil(share * resolution));
+}
+
 std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& frame,
                                      const ShadowSettings& settings, ShadowTechnique technique) {
   const Light& light = *placed.light;
@@ -113,7 +124,8 @@ std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& fra
         return {fit_to_box(placed.pose, box_of_casters(placed.pose, frame), settings.resolution)};
       return {widened({{placed.pose, light.projection}, settings.resolution, settings.resolution}, border)};
     case LightType::projector:
-      return {widened({placed.view, settings.resolution, settings.resolution}, border)};
+      return {widened({placed.view, settings.resolution, settings.resolution},
+                      border + focus_border(placed, settings.resolution))};
     case LightType::spot: {
       const double half_angle = light.outer_cone.in_degrees();
       if (shines_all_round(light)) break;
@@ -134,12 +146,13 @@ std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& fra
 
 namespace {
 
-// The light itself, or one point of its source.
-const PlacedLight* place(const PlacedLight& placed, SourcePoint point, LightPlan& plan) {
-  if (point.count == 1 || !placed.light->source.has_size()) return &placed;
-  PlacedLight& moved = plan.placed_points.emplace_back(at_source_point(placed, point));
+// The light itself, or one point of its source or lens.
+const PlacedLight* place(const PlacedLight& placed, SampleIndex sample, LightPlan& plan) {
+  if (sample.count == 1 || !has_samples(*placed.light)) return &placed;
+  PlacedLight& moved = plan.placed_points.emplace_back(at_sample(placed, sample));
   Light& light = plan.points.emplace_back(*placed.light);
   light.source = {};
+  light.aperture = {};
   moved.light = &light;
   return &moved;
 }
@@ -171,9 +184,9 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
   for (const PlacedLight& placed : frame.lights) {
     PlannedLight planned;
     planned.number = static_cast<std::uint32_t>(plan.lights.size());
-    planned.placed = place(placed, plan_settings.source_point, plan);
+    planned.placed = place(placed, plan_settings.sample, plan);
     planned.settings = placed.light->shadow;
-    planned.technique = planned.settings.technique.value_or(plan_settings.technique);
+    planned.technique = technique_of(*planned.placed->light, plan_settings.technique);
     if (planned.settings.resolution == 0) {
       planned.settings.resolution = default_resolution(planned.technique, placed.light->type);
     }

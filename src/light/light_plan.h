@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "frame/frame.h"
-#include "light/source_points.h"
+#include "light/light_samples.h"
 
 namespace laterna::light {
 
@@ -42,14 +42,14 @@ struct PlannedLight {
 
 struct LightPlan {
   std::vector<PlannedLight> lights;  // in the frame's order
-  // Lights as they shine from one point of their source: moved, and without size.
+  // Lights as they shine from one point of their source or lens: moved, and without size.
   std::deque<Light> points;
   std::deque<frame::PlacedLight> placed_points;
 };
 
 struct PlanSettings {
   ShadowTechnique technique = ShadowTechnique::map;  // for lights that name none
-  SourcePoint source_point;
+  SampleIndex sample;  // of a mean: every light is planned as it shines from its point of that number
   const View* camera = nullptr;  // cascades follow it; without one there is a single map
 };
 

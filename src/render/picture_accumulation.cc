@@ -86,31 +86,30 @@ void PictureAccumulation::sum_lights(int channel) {
   const std::string suffix = std::string(".") + kRgb[channel];
   const auto beauty =
       std::find_if(slots_.begin(), slots_.end(), [&](const Slot& s) { return s.name == kRgb[channel]; });
-  beauty->sum = slot("ambient" + suffix).sum;
+  beauty->picture = slot("ambient" + suffix).picture;
   for (const Slot& part : slots_) {
     if (part.name.rfind("light.", 0) != 0 || !part.name.ends_with(suffix)) continue;
-    for (std::size_t k = 0; k < pixels_; ++k) beauty->sum[k] += part.sum[k];
+    for (std::size_t k = 0; k < pixels_; ++k) beauty->picture[k] += part.picture[k];
   }
 }
 
-void PictureAccumulation::finish() {
+// In place of the last picture, which has been added.
+void PictureAccumulation::find_mean() {
   const auto count = static_cast<float>(count_);
   pool_.for_each(slots_.size(), [&](std::size_t i, int) {
     Slot& slot = slots_[i];
-    if (!slot.is_light) {
-      slot.sum = std::move(slot.picture);
-      return;
-    }
-    for (float& value : slot.sum) value /= count;
+    if (!slot.is_light) return;
+    for (std::size_t k = 0; k < pixels_; ++k) slot.picture[k] = slot.sum[k] / count;
   });
   for (int channel = 0; channel < 3; ++channel) sum_lights(channel);
 }
 
 void PictureAccumulation::write(const RenderSettings& settings, const RenderTarget& target,
-                                InstructionSet set, const frame::Frame& frame) const {
+                                InstructionSet set, const frame::Frame& frame) {
+  find_mean();
   const auto width = static_cast<std::size_t>(settings_.width);
   for (const ChannelTarget& channel : target.channels) {
-    const Plane& mean = slot(channel.name).sum;
+    const Plane& mean = slot(channel.name).picture;
     for (std::size_t y = 0; y < static_cast<std::size_t>(settings_.height); ++y) {
       std::copy_n(mean.data() + y * width, width, channel.pixels + y * channel.row_stride);
     }
@@ -127,7 +126,7 @@ void PictureAccumulation::write(const RenderSettings& settings, const RenderTarg
       shade::TilePlane* planes[] = {&tile->beauty.r, &tile->beauty.g, &tile->beauty.b, &tile->alpha};
       const char* names[] = {"R", "G", "B", "A"};
       for (int i = 0; i < 4; ++i)
-        read_tile(slot(names[i]).sum, settings_.width, settings_.height, x, y, *planes[i]);
+        read_tile(slot(names[i]).picture, settings_.width, settings_.height, x, y, *planes[i]);
       writer->write(x, y, *tile);
     }
   }

@@ -26,20 +26,19 @@ class PictureAccumulation {
   /// Estimated standard error of the mean's luminance over all pixels, as a fraction of the mean luminance: from how the
   /// pictures of even and odd number differ, at the last even number of them; 0 before the second.
   [[nodiscard]] double noise() const { return noise_; }
-  /// Takes the mean. To be called once, after the last picture.
-  void finish();
-  /// Writes the mean; the target has been checked (PictureWriter::create).
+  /// Writes the mean so far; the target has been checked (PictureWriter::create).
   void write(const RenderSettings& settings, const RenderTarget& target, InstructionSet set,
-             const frame::Frame& frame) const;
+             const frame::Frame& frame);
 
  private:
   using Plane = AlignedVector<float>;
   struct Slot {
     std::string name;
     bool is_light;
-    Plane picture, sum;
+    Plane picture, sum;  // between pictures, `picture` has room for the mean
   };
   [[nodiscard]] const Slot& slot(const std::string& name) const;
+  void find_mean();
   void sum_lights(int channel);
   [[nodiscard]] double estimate_noise() const;
 

@@ -134,9 +134,10 @@ class Batch {
 };
 
 // All probes, with lights as they shine from one point of their sources: added to the readings.
-void measure_once(const ProbeContext& context, std::span<const Probe> probes, light::SourcePoint point,
+void measure_once(const ProbeContext& context, std::span<const Probe> probes, light::SampleIndex sample,
                   std::span<ProbeReading> readings) {
-  light::LightPlan plan = light::make_light_plan(context.frame, {ShadowTechnique::raytraced, point, nullptr});
+  light::LightPlan plan =
+      light::make_light_plan(context.frame, {ShadowTechnique::raytraced, sample, nullptr});
   const glm::dvec3 origin = middle_of(probes);
   const RasterView::Ray ray = ray_about(origin);
   std::vector<MeasuredLight> lights;
@@ -203,7 +204,7 @@ ProbeReport measure_probes(const ProbeContext& context, std::span<const Probe> p
   report.readings.assign(probes.size(), dark);
   if (probes.empty()) return report;
   const bool has_size = std::any_of(context.frame.lights.begin(), context.frame.lights.end(),
-                                    [](const frame::PlacedLight& l) { return l.light->source.has_size(); });
+                                    [](const frame::PlacedLight& l) { return light::has_samples(*l.light); });
   const int points = has_size ? settings.light_samples : 1;
   for (int i = 0; i < points && !context.progress.is_cancelled(); ++i)
     measure_once(context, probes, {i, points}, report.readings);

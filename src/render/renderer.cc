@@ -41,6 +41,14 @@ int band_count(const frame::Frame& frame, int tile_rows) {
       std::clamp<std::size_t>((bytes + kBinMemory - 1) / kBinMemory, 1, static_cast<std::size_t>(tile_rows)));
 }
 
+// Where samples of a picture of a mean lie in their pixels; those of the first stay where they are.
+shade::SampleOffset jitter_of(SampleIndex sample) {
+  const auto offset = [&](SampleDimension dimension) {
+    return static_cast<int>(std::floor(256 * sample_number(sample, dimension))) - 128;
+  };
+  return {offset(SampleDimension::pixel_x), offset(SampleDimension::pixel_y)};
+}
+
 // Before so many pictures have been averaged, how they differ says little.
 constexpr int kFewestPictures = 8;
 
@@ -201,11 +209,17 @@ struct Renderer::Implementation {
     return job;
   }
 
-  Result<RenderStatistics> draw(const View& from, const RenderSettings& settings, const RenderTarget& target,
-                                const Progress& progress) const;
-  RenderStatistics draw_picture(const View& from, const RenderSettings& settings, light::SourcePoint point,
+  // Where a picture goes. `image`: what holds the target, where the caller has no memory of its own.
+  struct Destination {
+    const RenderTarget& target;
+    const Preview& preview;
+    const LayeredImage* image = nullptr;
+  };
+  Result<RenderStatistics> draw(const View& from, const RenderSettings& settings,
+                                const Destination& destination, const Progress& progress) const;
+  RenderStatistics draw_picture(const View& from, const RenderSettings& settings, SampleIndex sample,
                                 const render::PictureWriter& writer, ProgressReport& progress) const;
-  RenderStatistics draw_mean(const View& from, const RenderSettings& settings, const RenderTarget& target,
+  RenderStatistics draw_mean(const View& from, const RenderSettings& settings, const Destination& destination,
                              ProgressReport& progress) const;
   void draw_bands(const raster::RasterView& view, const RenderSettings& settings, shade::ShaderJob& job,
                   const render::PictureWriter& writer, RenderStatistics& statistics,
@@ -218,8 +232,8 @@ struct Renderer::Implementation {
   /// The light with the one shadow view of that face.
   [[nodiscard]] Result<light::PlannedLight> planned_face(const std::string& name, int face) const;
   [[nodiscard]] Result<LayeredImage> draw_channels(const View& view, const RenderSettings& settings,
-                                                   const Progress& progress,
-                                                   RenderStatistics* statistics) const;
+                                                   const Progress& progress, RenderStatistics* statistics,
+                                                   const Preview& preview) const;
 
   // While a picture is drawn. The last one out lets the shadow maps rest.
   class Drawing {
@@ -302,7 +316,7 @@ void Renderer::Implementation::draw_bands(const raster::RasterView& view, const 
   options.cull = raster::CullFaces::single_sided;
   options.required_flags = kVisible;
   options.instruction_set = set;
-  for (const shade::SampleOffset& offset : shade::sample_offsets(settings.samples)) {
+  for (const shade::SampleOffset& offset : shade::sample_offsets(settings.samples, job.jitter)) {
     options.sample_reach = std::max({options.sample_reach, std::abs(offset.x), std::abs(offset.y)});
   }
   for (int band = 0; band < bands && !progress.is_cancelled(); ++band) {
@@ -342,20 +356,21 @@ void Renderer::Implementation::draw_bands(const raster::RasterView& view, const 
   }
 }
 
-// One picture: lights as they shine from one point of their sources.
+// One picture: everything as it is at one sample of what is averaged.
 RenderStatistics Renderer::Implementation::draw_picture(const View& from, const RenderSettings& settings,
-                                                        light::SourcePoint point,
+                                                        SampleIndex sample,
                                                         const render::PictureWriter& writer,
                                                         ProgressReport& progress) const {
   Stopwatch watch;
   watch.start();
   RenderStatistics statistics;
-  const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows, point, &from});
+  const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows, sample, &from});
   const light::PhotographPlan photographs =
       light::make_photograph_plan(frame, scene.photograph_settings.visibility);
   statistics.plan_ms = watch.lap_ms();
   const raster::RasterView view(from, settings.width, settings.height);
   shade::ShaderJob job = make_job(view, settings, plan, photographs, statistics, progress);
+  job.jitter = jitter_of(sample);
   statistics.shadow_ms = watch.lap_ms();
   if (!progress.is_cancelled()) draw_bands(view, settings, job, writer, statistics, progress);
   for (std::size_t i = 0; i < job.lights.size(); ++i)
@@ -364,61 +379,65 @@ RenderStatistics Renderer::Implementation::draw_picture(const View& from, const 
   return statistics;
 }
 
-// The mean of pictures lit from different points of the lights. The target has been checked.
+// The mean of pictures at different samples. The target has been checked.
 RenderStatistics Renderer::Implementation::draw_mean(const View& from, const RenderSettings& settings,
-                                                     const RenderTarget& target,
+                                                     const Destination& destination,
                                                      ProgressReport& progress) const {
   Stopwatch watch;
   watch.start();
   RenderStatistics statistics;
   render::PictureAccumulation pictures(settings, frame, pool);
-  for (int i = 0; i < settings.light_samples && !progress.is_cancelled(); ++i) {
+  const auto write = [&] { pictures.write(settings, destination.target, set, frame); };
+  for (int i = 0; i < settings.accumulate && !progress.is_cancelled(); ++i) {
     const Result<render::PictureWriter> writer =
         render::PictureWriter::create(pictures.picture_settings(), pictures.picture_target(), frame, set);
     const RenderStatistics one =
-        draw_picture(from, pictures.picture_settings(), {i, settings.light_samples}, *writer, progress);
+        draw_picture(from, pictures.picture_settings(), {i, settings.accumulate}, *writer, progress);
     if (progress.is_cancelled()) break;
     pictures.add();
     render::add_costs(statistics, one);
     if (settings.noise > 0 && pictures.count() >= kFewestPictures && pictures.noise() <= settings.noise)
       break;
+    if (destination.preview && i + 1 < settings.accumulate &&
+        !destination.preview({pictures.count(), pictures.noise(), write, destination.image})) {
+      break;
+    }
   }
   if (progress.is_cancelled()) return statistics;
-  statistics.light_samples = pictures.count();
+  statistics.pictures = pictures.count();
   statistics.noise = pictures.noise();
-  pictures.finish();
-  pictures.write(settings, target, set, frame);
+  write();
   statistics.total_ms = watch.lap_ms();
   return statistics;
 }
 
 Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const RenderSettings& settings,
-                                                        const RenderTarget& target,
+                                                        const Destination& destination,
                                                         const Progress& progress) const {
   if (Result<void> checked = render::check_settings(settings, from); !checked)
     return tl::unexpected(checked.error());
   if (Result<void> checked = render::check_technique(settings.shadows, frame); !checked)
     return tl::unexpected(checked.error());
-  Result<render::PictureWriter> writer = render::PictureWriter::create(settings, target, frame, set);
+  Result<render::PictureWriter> writer =
+      render::PictureWriter::create(settings, destination.target, frame, set);
   if (!writer) return tl::unexpected(std::move(writer.error()));
 
   const Drawing drawing(*this);
-  const bool has_size = std::any_of(frame.lights.begin(), frame.lights.end(),
-                                    [](const frame::PlacedLight& l) { return l.light->source.has_size(); });
-  const int pictures = has_size ? settings.light_samples : 1;
   ProgressReport report(progress, static_cast<std::size_t>(raster::tiles_across(settings.width)) *
                                       static_cast<std::size_t>(raster::tiles_across(settings.height)) *
-                                      static_cast<std::size_t>(pictures));
-  const RenderStatistics statistics = pictures == 1 ? draw_picture(from, settings, {}, *writer, report)
-                                                    : draw_mean(from, settings, target, report);
+                                      static_cast<std::size_t>(settings.accumulate));
+  const RenderStatistics statistics = settings.accumulate == 1
+                                          ? draw_picture(from, settings, {}, *writer, report)
+                                          : draw_mean(from, settings, destination, report);
   if (report.is_cancelled())
     return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
   return statistics;
 }
 
 Result<RenderStatistics> Renderer::render_into(const View& view, const RenderSettings& settings,
-                                               const RenderTarget& target, const Progress& progress) const {
-  return guarded([&] { return implementation_->draw(view, settings, target, progress); });
+                                               const RenderTarget& target, const Progress& progress,
+                                               const Preview& preview) const {
+  return guarded([&] { return implementation_->draw(view, settings, {target, preview}, progress); });
 }
 
 std::vector<std::string> Renderer::channel_names(const RenderSettings& settings) const {
@@ -431,7 +450,8 @@ std::vector<std::string> Renderer::channel_names(const RenderSettings& settings)
 
 Result<LayeredImage> Renderer::Implementation::draw_channels(const View& view, const RenderSettings& settings,
                                                              const Progress& progress,
-                                                             RenderStatistics* statistics) const {
+                                                             RenderStatistics* statistics,
+                                                             const Preview& preview) const {
   if (Result<void> checked = render::check_settings(settings, view); !checked)
     return tl::unexpected(checked.error());
   LayeredImage image;
@@ -445,16 +465,18 @@ Result<LayeredImage> Renderer::Implementation::draw_channels(const View& view, c
   }
   for (Channel& channel : image.channels)
     target.channels.push_back({channel.name, channel.values.data(), stride});
-  Result<RenderStatistics> done = draw(view, settings, target, progress);
+  image.metadata = render::describe(settings, view, frame);
+  Result<RenderStatistics> done = draw(view, settings, {target, preview, &image}, progress);
   if (!done) return tl::unexpected(std::move(done.error()));
   if (statistics != nullptr) *statistics = *done;
-  image.metadata = render::describe(settings, view, frame);
   return image;
 }
 
 Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& settings,
-                                      const Progress& progress, RenderStatistics* statistics) const {
-  return guarded([&] { return implementation_->draw_channels(view, settings, progress, statistics); });
+                                      const Progress& progress, RenderStatistics* statistics,
+                                      const Preview& preview) const {
+  return guarded(
+      [&] { return implementation_->draw_channels(view, settings, progress, statistics, preview); });
 }
 
 Result<ProbeReport> Renderer::measure_probes(std::span<const Probe> probes, const ProbeSettings& settings,

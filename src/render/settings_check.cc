@@ -54,10 +54,10 @@ Result<void> check_settings(const RenderSettings& settings, const View& view) {
     if (std::ranges::find(list_layers(), layer, &LayerDescription::layer) == list_layers().end())
       return refuse("the settings ask for a layer that there is not");
   }
-  constexpr int kMostLightSamples = 65536;
-  if (settings.light_samples < 1 || settings.light_samples > kMostLightSamples) {
-    return refuse("points of a light must be from 1 to " + std::to_string(kMostLightSamples) + ", not " +
-                  std::to_string(settings.light_samples));
+  constexpr int kMostPictures = 65536;
+  if (settings.accumulate < 1 || settings.accumulate > kMostPictures) {
+    return refuse("pictures to accumulate must be from 1 to " + std::to_string(kMostPictures) + ", not " +
+                  std::to_string(settings.accumulate));
   }
   if (!(settings.noise >= 0 && settings.noise < 1)) {
     return refuse("the noise to stop at must be a fraction from 0 up to 1, not " +

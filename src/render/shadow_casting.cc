@@ -148,7 +148,7 @@ void ShadowCasting::report_memory(const light::PlannedLight& planned, int maps, 
 
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_soft_map(const light::PlannedLight& planned,
                                                                       std::size_t index) {
-  if (!planned.placed->light->source.has_size()) return make_map(planned, index);
+  if (!light::has_samples(*planned.placed->light)) return make_map(planned, index);
   const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
   if (!complete(maps)) return nullptr;
   auto technique = std::make_unique<shadow::SoftShadowMap>(

@@ -269,6 +269,7 @@ class LightReader {
                                                       {"mirror", Outside::mirror}})
                          .value_or(light_.outside);
     read_panel();
+    read_aperture();
     object_.any("distortion");
     const std::optional<double> slide_aspect = aspect_for_lens();
     if (const auto frustum = read_frustum(json_, object_, faults_, FrustumOf::projector, slide_aspect)) {
@@ -288,6 +289,22 @@ class LightReader {
       light_.panel_height = static_cast<int>((*pixels)[1]);
       if (light_.panel_width != (*pixels)[0] || light_.panel_height != (*pixels)[1])
         object_.error("pixels", "expected whole numbers");
+    }
+  }
+
+  void read_aperture() {
+    Aperture& aperture = light_.aperture;
+    aperture.radius = object_.number("aperture_radius", kLength).value_or(0);
+    const NumberRange in_focus{kNearestFocus, kMaxCoordinate, false, false};
+    if (const auto focus = object_.number("focus", in_focus)) aperture.focal_distance = *focus;
+    if (object_.has("focus") && !object_.has("aperture_radius"))
+      object_.error("focus", "needs \"aperture_radius\" beside it: through a pinhole all is in focus");
+    if (!(aperture.radius > 0)) return;
+    if (object_.has("orthographic"))
+      object_.error("aperture_radius", "a parallel projector has no lens to open");
+    for (const std::string_view name : {"radius", "size"}) {
+      if (object_.has(name))
+        object_.error(name, "the light shines from its lens: give either this or aperture_radius");
     }
   }
 

@@ -28,6 +28,12 @@ constexpr TechniqueDescription kTechniques[] = {
 
 std::span<const TechniqueDescription> list_techniques() { return kTechniques; }
 
+ShadowTechnique technique_of(const Light& light, ShadowTechnique for_all) {
+  if (light.shadow.technique) return *light.shadow.technique;
+  const bool is_wide = light.type == LightType::projector && light.aperture.radius > 0;
+  return is_wide && for_all == ShadowTechnique::map ? ShadowTechnique::pcss : for_all;
+}
+
 std::string find_fault(ShadowTechnique technique, const Light& light) {
   if (technique == ShadowTechnique::pcss && light.type == LightType::projector &&
       light.projection.is_orthographic && light.source.has_size()) {

@@ -100,6 +100,7 @@ class Validator {
   void check_distribution(const Light& light, const std::string& place);
   void check_distortion(const Light& light, const std::string& place);
   void check_source(const Light& light, const std::string& place);
+  void check_aperture(const Light& light, const std::string& place);
   void check_shadow(const ShadowSettings& shadow, const std::string& place);
   void check_plane(const ShadowPlane& plane, const std::string& place);
   void check_photographs();
@@ -358,6 +359,7 @@ void Validator::check_light(const Light& light, const std::string& place) {
   check_panel(light, place);
   check_distortion(light, place + ".distortion");
   check_source(light, place + ".source");
+  check_aperture(light, place + ".aperture");
   check_shadow(light.shadow, place + ".shadow");
   if (std::string message = find_fault(light.shadow.depth, light); !message.empty())
     fault(place + ".shadow.depth", std::move(message));
@@ -411,6 +413,20 @@ void Validator::check_distortion(const Light& light, const std::string& place) {
   // Which directions its bright parts go to is the lens's affair.
   if (light.slide_is_intensity && light.lumens)
     fault(place, "an intensity map behind a lens that distorts is given in candela, not lumens");
+}
+
+void Validator::check_aperture(const Light& light, const std::string& place) {
+  const Aperture& aperture = light.aperture;
+  check_number(place + ".radius", aperture.radius, 0, kMaxCoordinate);
+  if (!(aperture.focal_distance >= kNearestFocus)) {
+    fault(place + ".focal_distance",
+          fmt::format("expected at least {} m, got {}", kNearestFocus, aperture.focal_distance));
+  }
+  if (!(aperture.radius > 0)) return;
+  if (light.type != LightType::projector || light.projection.is_orthographic)
+    fault(place + ".radius", "only a projector with perspective has a lens to open");
+  if (light.source.has_size())
+    fault(place + ".radius", "the light shines from its lens: leave out the source's size");
 }
 
 void Validator::check_source(const Light& light, const std::string& place) {

@@ -55,6 +55,10 @@ BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterVie
                       shadow::ProjectedRow(m[3], ray)};
     if (placed.lens) lens.emplace(*placed.lens);
     slide_sampler.wrap_u = slide_sampler.wrap_v = wrap_of(light->outside);
+    const Projection& frame = placed.lens ? placed.lens->frame : placed.view.projection;
+    blur_s = static_cast<float>(light->aperture.radius / (frame.right - frame.left));
+    blur_t = static_cast<float>(light->aperture.radius / (frame.top - frame.bottom));
+    inverse_focus = static_cast<float>(1 / light->aperture.focal_distance);
   }
 }
 

@@ -40,6 +40,9 @@ struct BoundLight {
   float black_level = 0;  // of the slide
   Sampler slide_sampler;
   int anisotropy = 1;
+  // Out of focus (Aperture): at distance d along the axis a point of the slide is a disc whose radii are these times
+  // |inverse_focus − 1/d|, in units of the slide's sides; 0: in focus everywhere.
+  float blur_s = 0, blur_t = 0, inverse_focus = 0;
 
   BoundLight(const frame::PlacedLight& placed, const raster::RasterView::Ray& ray, ShadingModel model,
              int anisotropy);

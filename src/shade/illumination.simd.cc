@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "base/vectors-inl.h"
+#include "image/disc_lookup-inl.h"
 #include "image/texture_lookup-inl.h"
 #include "shade/illumination.h"
 #include "shade/lamp_lookup-inl.h"
@@ -32,6 +33,8 @@ HWY_INLINE Vector3 Load3(const Samples& x, const Samples& y, const Samples& z, s
 }
 
 // ---------------------------------------------------------------------------------------------- arriving light
+
+HWY_INLINE Vector3 Multiply(const Vector3& a, const Vector3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 // What a light sends to N points: colour, direction, and where it shines at all.
 struct Arriving {
@@ -130,6 +133,74 @@ HWY_INLINE SlidePoint FindSlidePoint(const BoundLight& light, const shadow::Surf
   return point;
 }
 
+// What a slide out of focus throws on points, and where it throws anything.
+struct BlurredSlide {
+  Vector3 colour;
+  FloatMask shines;
+};
+
+image::HWY_NAMESPACE::Beyond BeyondOf(Outside outside) {
+  using image::HWY_NAMESPACE::Beyond;
+  switch (outside) {
+    case Outside::clamp:
+      return Beyond::clamp;
+    case Outside::repeat:
+      return Beyond::repeat;
+    case Outside::mirror:
+      return Beyond::mirror;
+    case Outside::black:
+      break;
+  }
+  return Beyond::black;
+}
+
+// Radii of the disc, in units of the slide's sides.
+struct Defocus {
+  FloatVector radius_u, radius_v;
+};
+
+// The mean of the slide (null: white) as every point of the lens throws it on points: a disc of the slide (row 13).
+// Discs less than some texels, or pixels, wide are mixed from the slide in focus and a disc that is as wide, so that the
+// variance of the blur is right.
+HWY_NOINLINE BlurredSlide FindBlurredSlide(const BoundLight& light, const image::MipChain* slide,
+                                           const Footprint& f, const Defocus& defocus, FloatMask in_frame) {
+  constexpr float kNarrowest = 1.5F;  // texels or pixels in radius
+  const FloatTag d;
+  const auto zero = Splat(0.0F), one = Splat(1.0F), half = Splat(0.5F);
+  const bool is_black = light.light->outside == Outside::black;
+  const auto width = Splat(slide != nullptr ? static_cast<float>(slide->width()) : 1.0F);
+  const auto height = Splat(slide != nullptr ? static_cast<float>(slide->height()) : 1.0F);
+  const auto radius_u = defocus.radius_u, radius_v = defocus.radius_v;
+  const auto radius = hn::Max(hn::Max(radius_u * width, radius_v * height), Splat(1e-20F));
+
+  // The pixel's side, in texels, where as many probes as may be share out the longer one.
+  const auto ux = f.du_dx * width, vx = f.dv_dx * height, uy = f.du_dy * width, vy = f.dv_dy * height;
+  const auto x_squared = ux * ux + vx * vx, y_squared = uy * uy + vy * vy;
+  const auto most = static_cast<float>(light.anisotropy);
+  const auto pixel_squared =
+      hn::Max(hn::Min(x_squared, y_squared), hn::Max(x_squared, y_squared) * Splat(1.0F / (most * most)));
+  const auto texel = Splat(slide != nullptr ? 1.0F : 0.0F);
+  const auto unit = hn::Max(texel, hn::Sqrt(hn::Min(pixel_squared, Splat(1e20F))));
+  const auto narrowest = Splat(kNarrowest) * unit;
+  const auto widening = hn::Max(narrowest / radius, one);
+  const auto share = one / (widening * widening);
+  const image::HWY_NAMESPACE::Disc disc = {f.u, f.v, radius_u * widening, radius_v * widening};
+
+  BlurredSlide blurred;
+  // Weights end at less than 3/2 radii.
+  const auto reach_u = half + Splat(1.5F) * disc.radius_u, reach_v = half + Splat(1.5F) * disc.radius_v;
+  blurred.shines = hn::And(hn::Abs(f.u - half) <= reach_u, hn::Abs(f.v - half) <= reach_v);
+  if (!is_black) blurred.shines = zero <= zero;
+  if (hn::AllFalse(d, blurred.shines)) return {{zero, zero, zero}, blurred.shines};
+  blurred.colour = image::HWY_NAMESPACE::LookUpDisc(slide, BeyondOf(light.light->outside), disc);
+  if (hn::AllTrue(d, share == one)) return blurred;
+  Vector3 sharp = {one, one, one};
+  if (slide != nullptr) sharp = LookUp(*slide, light.slide_sampler, light.anisotropy, f);
+  if (is_black) sharp = image::HWY_NAMESPACE::Where(in_frame, sharp);
+  blurred.colour = blurred.colour * share + sharp * (one - share);
+  return blurred;
+}
+
 HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::SurfaceSamples& samples,
                                   const SlideCoordinates* coordinates, Irradiance& irradiance,
                                   std::size_t i) {
@@ -143,7 +214,8 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
     f.v = hn::IfThenElse(valid, hn::Load(d, coordinates->t.data() + i), f.v);
   }
   auto shines = point.is_ahead;
-  if (light.lens) shines = hn::And(shines, PassLens(*light.lens, f));
+  LensStretch stretch = {one, one};
+  if (light.lens) shines = hn::And(shines, PassLens(*light.lens, f, stretch));
   const auto in_frame = hn::And(hn::And(f.u >= zero, f.u <= one), hn::And(f.v >= zero, f.v <= one));
   const Vector3 from_light = Load3(samples.x_ws, samples.y_ws, samples.z_ws, i) - Splat3(light.position_ws);
   const auto along = Dot(from_light, Splat3(light.forward_ws));
@@ -152,10 +224,21 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
     const double lens = std::min(light.light->projection.near, 0.0);
     shines = hn::And(shines, along > Splat(static_cast<float>(lens)));
   }
-  if (light.light->outside == Outside::black) shines = hn::And(shines, in_frame);
+  const auto is_thrown = light.light->outside == Outside::black ? hn::And(shines, in_frame) : shines;
   const auto nan = Splat(std::numeric_limits<float>::quiet_NaN());
-  hn::Store(hn::IfThenElse(shines, f.u, nan), d, irradiance.slide_s.data() + i);
-  hn::Store(hn::IfThenElse(shines, f.v, nan), d, irradiance.slide_t.data() + i);
+  hn::Store(hn::IfThenElse(is_thrown, f.u, nan), d, irradiance.slide_s.data() + i);
+  hn::Store(hn::IfThenElse(is_thrown, f.v, nan), d, irradiance.slide_t.data() + i);
+  const bool is_blurred = light.blur_s > 0;
+  Defocus defocus;
+  BlurredSlide blurred;
+  if (HWY_UNLIKELY(is_blurred)) {
+    const auto off_focus = hn::Abs(Splat(light.inverse_focus) - one / hn::Max(along, Splat(1e-6F)));
+    defocus = {Splat(light.blur_s) * off_focus * stretch.u, Splat(light.blur_t) * off_focus * stretch.v};
+    blurred = FindBlurredSlide(light, light.slide, f, defocus, in_frame);
+    shines = hn::And(shines, blurred.shines);
+  } else {
+    shines = is_thrown;
+  }
   if (hn::AllFalse(d, shines)) return {Splat3(light.color), Splat3(light.forward_ws), shines};
 
   Arriving arriving;
@@ -181,14 +264,21 @@ HWY_INLINE Arriving FromProjector(const BoundLight& light, const shadow::Surface
     }
   }
   arriving.color = Splat3(light.color) * intensity;
-  if (light.slide != nullptr) {
+  if (is_blurred) {
+    Vector3 t = blurred.colour;
+    if (light.black_level > 0 && light.slide != nullptr) {
+      const Vector3 open = FindBlurredSlide(light, nullptr, f, defocus, in_frame).colour;
+      t = t * Splat(1.0F - light.black_level) + open * Splat(light.black_level);
+    }
+    arriving.color = Multiply(arriving.color, t);
+  } else if (light.slide != nullptr) {
     Vector3 t = LookUp(*light.slide, light.slide_sampler, light.anisotropy, f);
     // Panels leak: what they throw runs from the black level to white.
     if (light.black_level > 0) {
       const auto black = Splat(light.black_level), rest = Splat(1.0F - light.black_level);
       t = {t.x * rest + black, t.y * rest + black, t.z * rest + black};
     }
-    arriving.color = {arriving.color.x * t.x, arriving.color.y * t.y, arriving.color.z * t.z};
+    arriving.color = Multiply(arriving.color, t);
   }
   arriving.shines = shines;
   return arriving;
@@ -239,8 +329,6 @@ HWY_INLINE void Store3(const Vector3& v, Radiance& radiance, std::size_t i) {
   hn::Store(v.y, d, radiance.g.data() + i);
   hn::Store(v.z, d, radiance.b.data() + i);
 }
-
-HWY_INLINE Vector3 Multiply(const Vector3& a, const Vector3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 void find_ambient(const ReflectionSettings& settings, const frame::Surface& surface, std::size_t groups,
                   const SurfacePoints& points, Radiance& radiance) {

@@ -48,7 +48,8 @@ LightReach::LightReach(const frame::PlacedLight& placed, ShadingModel model)
   if (light.type != LightType::projector) return;
   // Slide coordinates x/w and y/w lie in [0, 1] where the light shines.
   const glm::dmat4 rows = glm::transpose(placed.view.image_from_world());
-  if (light.outside == Outside::black) {
+  // Out of focus, light falls beside the frame too: how far is left to the samples to find out.
+  if (light.outside == Outside::black && light.aperture.radius == 0) {
     for (const int axis : {0, 1}) {
       add_halfspace(rows[axis]);
       add_halfspace(rows[3] - rows[axis]);

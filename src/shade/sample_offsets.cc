@@ -28,9 +28,7 @@ constexpr std::array<SampleOffset, 16> kSixteen = {{{16, 16},
                                                     {96, 112},
                                                     {-112, -128}}};
 
-}  // namespace
-
-std::span<const SampleOffset> sample_offsets(int count) {
+std::span<const SampleOffset> standard_pattern(int count) {
   switch (count) {
     case 2:
       return kTwo;
@@ -43,6 +41,19 @@ std::span<const SampleOffset> sample_offsets(int count) {
     default:
       return kOne;
   }
+}
+
+// Into [−128, 128).
+int within_pixel(int offset) { return ((offset + 128) & 255) - 128; }
+
+}  // namespace
+
+std::vector<SampleOffset> sample_offsets(int count, SampleOffset jitter) {
+  const std::span<const SampleOffset> pattern = standard_pattern(count);
+  std::vector<SampleOffset> offsets;
+  for (const SampleOffset& at : pattern)
+    offsets.push_back({within_pixel(at.x + jitter.x), within_pixel(at.y + jitter.y)});
+  return offsets;
 }
 
 }  // namespace laterna::shade

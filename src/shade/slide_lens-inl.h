@@ -17,11 +17,17 @@ namespace laterna::shade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 
+// By how much the slide is stretched across and down where it is looked up, against a lens without distortion.
+struct LensStretch {
+  FloatVector u, v;
+};
+
 // Coordinates over the beam's image become coordinates over the slide, with their change from pixel to pixel. A projector
 // is a camera run backward: from the direction of a surface to the place on the slide is the way in which OpenCV's
 // formula is closed form (laterna/lens.h). Returns where the lens throws anything; elsewhere the coordinates are those of
 // its axis.
-HWY_INLINE FloatMask PassLens(const BoundLens& lens, image::HWY_NAMESPACE::Footprint& f) {
+HWY_INLINE FloatMask PassLens(const BoundLens& lens, image::HWY_NAMESPACE::Footprint& f,
+                              LensStretch& stretch) {
   auto x = f.u * Splat(lens.x_scale) + Splat(lens.x_offset);
   auto y = f.v * Splat(lens.y_scale) + Splat(lens.y_offset);
   const auto is_thrown = x * x + y * y <= Splat(lens.field_squared);
@@ -49,6 +55,7 @@ HWY_INLINE FloatMask PassLens(const BoundLens& lens, image::HWY_NAMESPACE::Footp
   };
   change(f.du_dx, f.dv_dx);
   change(f.du_dy, f.dv_dy);
+  stretch = {hn::Abs(x_by_x), hn::Abs(y_by_y)};
   return is_thrown;
 }
 

@@ -49,7 +49,7 @@ class TileShader::Worker {
  public:
   explicit Worker(const ShaderJob& job)
       : job_(job),
-        offsets_(sample_offsets(job.samples_per_pixel)),
+        offsets_(sample_offsets(job.samples_per_pixel, job.jitter)),
         source_{job.frame, job.view, job.interpolation, job.anisotropy},
         cut_(source_, false, job.instruction_set),
         rasterise_visibility_(raster::rasterise_visibility_for(job.instruction_set)),
@@ -421,7 +421,7 @@ class TileShader::Worker {
   }
 
   const ShaderJob& job_;
-  std::span<const SampleOffset> offsets_;
+  std::vector<SampleOffset> offsets_;
   PointSource source_;
   SurfaceCut cut_;
   raster::RasteriseVisibility rasterise_visibility_;

@@ -27,6 +27,14 @@ struct ShaderLight {
   ShadowTone tone;
 };
 
+/// Sample positions of a pixel, in 1/256 pixel from its centre.
+struct SampleOffset {
+  int x = 0, y = 0;
+};
+/// Direct3D's standard patterns; the first is the nearest to the centre. count: 1, 2, 4, 8, 16. All of them are moved by
+/// `jitter`, from −128 to 127, and what leaves the pixel on one side comes back on the other.
+std::vector<SampleOffset> sample_offsets(int count, SampleOffset jitter);
+
 /// Everything that is the same for all tiles of a picture.
 struct ShaderJob {
   const frame::Frame* frame = nullptr;
@@ -39,6 +47,7 @@ struct ShaderJob {
   Interpolation interpolation = Interpolation::perspective;
   int anisotropy = 1;
   int samples_per_pixel = 1;
+  SampleOffset jitter;  // of the samples
   Passes passes = Passes::single;
   const glm::vec3* background = nullptr;  // null: black and transparent
   WantedLayers wanted;
@@ -65,11 +74,5 @@ class TileShader {
   class Worker;
   std::unique_ptr<Worker> worker_;
 };
-
-/// Sample positions of a pixel, in 1/256 pixel from its centre; the first is the nearest to it. count: 1, 2, 4, 8, 16.
-struct SampleOffset {
-  int x, y;
-};
-std::span<const SampleOffset> sample_offsets(int count);
 
 }  // namespace laterna::shade

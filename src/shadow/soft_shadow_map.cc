@@ -119,7 +119,8 @@ SoftShadowMap::SoftShadowMap(const light::PlannedLight& planned,
     return;
   }
   test_.shape = LightShape::plane;
-  glm::dvec2 half(tangent(0.5 * source.angular_diameter.in_radians()));
+  const double lens = planned.placed->light->aperture.radius;
+  glm::dvec2 half(lens > 0 ? lens : tangent(0.5 * source.angular_diameter.in_radians()));
   if (source.width > 0 || source.height > 0) {
     test_.pattern = &square_pattern();
     half = {0.5 * source.width, 0.5 * source.height};

@@ -37,7 +37,7 @@ struct SoftDepthMap {
 enum class LightShape : std::uint8_t {
   ball,
   plane
-};  // plane: a rectangle, or the disc of a light in the sky
+};  // plane: a rectangle, a projector's lens, or the disc of a light in the sky
 
 /// What one light's soft look-ups need.
 struct SoftShadowTest {
@@ -51,7 +51,7 @@ struct SoftShadowTest {
 
 class SoftShadowMap final : public ShadowTechnique {
  public:
-  /// All tiles of the maps are drawn. The light has a size.
+  /// All tiles of the maps are drawn. The light has a size, or a lens that is open.
   SoftShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
                 const frame::Frame& frame, const frame::TriangleNeighbours* neighbours,
                 const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set,

@@ -438,6 +438,22 @@ const RigCase kRigCases[] = {
      "r.json: line 1: lights[0].shadow.technique: \"pcss\" cannot serve a parallel projector with a size: "
      "all its "
      "light goes one way"},
+    {"Aperture",
+     "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,1], \"yfov_deg\": 30,\n"
+     "\"aperture_radius\": -1, \"focus\": 0},\n{\"type\": \"projector\", \"position\": [0,1,0], \"target\": "
+     "[0,0,1], \"yfov_deg\": 30, \"focus\": 2},\n{\"type\": \"projector\", \"position\": [0,1,0], "
+     "\"target\": "
+     "[0,0,1], \"yfov_deg\": 30, \"aperture_radius\": 0.1, \"size\": [1, 1]},\n{\"type\": \"spot\", "
+     "\"position\": [0,1,0], \"target\": [0,0,1], \"aperture_radius\": 0.1},\n{\"type\": \"projector\", "
+     "\"position\": [0,1,0], \"target\": [0,0,1], \"orthographic\": {\"height\": 2}, \"far\": 9, "
+     "\"aperture_radius\": 0.1}]}",
+     "r.json: line 2: lights[0].aperture_radius: expected a number from 0 to 1000000000, got -1\n"
+     "r.json: line 2: lights[0].focus: expected a number from 0.001 to 1000000000, got 0\n"
+     "r.json: line 3: lights[1].focus: needs \"aperture_radius\" beside it: through a pinhole all is in "
+     "focus\n"
+     "r.json: line 4: lights[2].size: the light shines from its lens: give either this or aperture_radius\n"
+     "r.json: line 5: lights[3].aperture_radius: a spot light has no key \"aperture_radius\"\n"
+     "r.json: line 6: lights[4].aperture_radius: a parallel projector has no lens to open"},
     {"ShadowResolutionFraction",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"resolution\": 1024.5}}]}",
      "r.json: line 1: lights[0].shadow.resolution: expected a whole number from 1 to 16384, got 1024.5"},

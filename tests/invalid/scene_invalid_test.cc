@@ -246,6 +246,18 @@ const SceneCase kSceneCases[] = {
        s.lights[1].slide_is_intensity = true;
      },
      "lights[1].slide: is not set, but slide_is_intensity says that it holds the intensities"},
+    {"ApertureRadius", [](Scene& s) { s.lights[1].aperture.radius = -1; },
+     "lights[1].aperture.radius: expected a number from 0 to 1000000000, got -1"},
+    {"ApertureFocus", [](Scene& s) { s.lights[1].aperture.focal_distance = 0; },
+     "lights[1].aperture.focal_distance: expected at least 0.001 m, got 0"},
+    {"ApertureOfAPoint", [](Scene& s) { s.lights[0].aperture.radius = 1; },
+     "lights[0].aperture.radius: only a projector with perspective has a lens to open"},
+    {"ApertureAndSize",
+     [](Scene& s) {
+       s.lights[1].aperture.radius = 1;
+       s.lights[1].source.radius = 1;
+     },
+     "lights[1].aperture.radius: the light shines from its lens: leave out the source's size"},
     {"ProjectorFrustum", [](Scene& s) { s.lights[1].projection.left = 5; },
      "lights[1].projection: the frustum has no width or no height"},
     {"SunFrustum",

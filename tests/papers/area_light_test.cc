@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "light/source_points.h"
 #include "reference/picture_probes.h"
 #include "reference/shapes.h"
 
@@ -35,7 +34,7 @@ constexpr int kWide = 512;
 std::vector<double> row_of_visibility(const Scene& scene, ShadowTechnique technique, int points) {
   RenderSettings settings = test_settings(kWide, 4);
   settings.shadows = technique;
-  settings.light_samples = points;
+  settings.accumulate = points;
   settings.layers = {Layer::visibility};
   View camera = look({0, 8, 0}, {0, 0, 0}, 30, 1, {0, 0, -1});
   camera.projection = Projection::orthographic(1, 4.0 / kWide, 0.5, 20);
@@ -98,7 +97,7 @@ TEST(AreaLight, TheSunsDiscGivesItsPenumbra) {
   add_light(scene, sun, {0, 20, 0}, {0, 0, 0}, {0, 0, -1});
   RenderSettings settings = test_settings(kWide, 4);
   settings.shadows = ShadowTechnique::raytraced;
-  settings.light_samples = 512;
+  settings.accumulate = 512;
   settings.layers = {Layer::visibility};
   View camera = look({0, 8, 0}, {0, 0, 0}, 30, 1, {0, 0, -1});
   camera.projection = Projection::orthographic(0.1, 0.1 * 4.0 / kWide, 0.5, 20);
@@ -123,13 +122,13 @@ TEST(AreaLight, NoiseIsReportedAndStopsTheWork) {
   View camera = look({0, 8, 0}, {0, 0, 0}, 30, 1, {0, 0, -1});
   camera.projection = Projection::orthographic(1, 4.0 / kWide, 0.5, 20);
   const auto draw = [&](int points, double noise, RenderStatistics& statistics) {
-    settings.light_samples = points;
+    settings.accumulate = points;
     settings.noise = noise;
     return *renderer.render(camera, settings, {}, &statistics);
   };
   RenderStatistics s;
   const LayeredImage truth = draw(512, 0, s);
-  EXPECT_EQ(s.light_samples, 512);
+  EXPECT_EQ(s.pictures, 512);
   double last = 1;
   for (const int points : {4, 16, 64}) {
     const LayeredImage image = draw(points, 0, s);
@@ -146,11 +145,11 @@ TEST(AreaLight, NoiseIsReportedAndStopsTheWork) {
     last = s.noise;
   }
   draw(9, 0, s);
-  EXPECT_EQ(s.light_samples, 9) << "an odd number is an estimate too";
+  EXPECT_EQ(s.pictures, 9) << "an odd number is an estimate too";
   EXPECT_GT(s.noise, 0);
   EXPECT_LT(s.noise, 1);
   draw(512, last * 1.01, s);
-  EXPECT_LE(s.light_samples, 256);
+  EXPECT_LE(s.pictures, 256);
   EXPECT_LE(s.noise, last * 1.01);
 }
 
@@ -167,11 +166,11 @@ TEST(AreaLight, AllPointsAreDrawnWhereNoNoiseIsAskedFor) {
     add_light(scene, sun, {0, 5, 0}, {0, 0, 0}, {0, 0, -1});
     RenderSettings settings = test_settings(16, 16);
     settings.shading = ShadingModel::papers;
-    settings.light_samples = 16;
+    settings.accumulate = 16;
     RenderStatistics statistics;
     ASSERT_TRUE(make_renderer(std::move(scene))
                     .render(look({0, 3, 0}, {0, 0, 0}, 30, 1, {0, 0, -1}), settings, {}, &statistics));
-    EXPECT_EQ(statistics.light_samples, 16);
+    EXPECT_EQ(statistics.pictures, 16);
     EXPECT_EQ(statistics.noise, 0);
   }
 }
@@ -184,7 +183,7 @@ TEST(AreaLight, TheMeanIsTheSameForEveryone) {
   scene.ambient = glm::vec3(0.1F, 0.2F, 0.3F);
   scene.ambient_is_set = true;
   RenderSettings settings = test_settings(64, 48);
-  settings.light_samples = 6;
+  settings.accumulate = 6;
   settings.layers = {Layer::light, Layer::depth, Layer::visibility};
   const View camera = look({1, 3, 5}, {0, 0, 0}, 50, 1.33);
   const LayeredImage image = render(make_renderer(scene, 1), camera, settings);
@@ -196,23 +195,20 @@ TEST(AreaLight, TheMeanIsTheSameForEveryone) {
   for (int x = 0; x < 64; x += 5) {
     EXPECT_EQ(at(image, "G", x, 40), at(image, "ambient.G", x, 40) + at(image, "light.lamp.G", x, 40));
   }
-  settings.light_samples = 1;
+  settings.accumulate = 1;
   settings.layers = {Layer::depth};
   const LayeredImage one = render(make_renderer(scene), camera, settings);
   EXPECT_EQ(at(one, "Z", 30, 40), at(image, "Z", 30, 40)) << "data is the first picture's";
 }
 
-// A light without size is drawn once, however many points are asked for.
-TEST(AreaLight, PointsNeedASize) {
-  RenderStatistics statistics;
-  RenderSettings settings = test_settings(16, 16);
-  settings.light_samples = 50;
+// A number of pictures that there cannot be is refused.
+TEST(AreaLight, ThereIsOnePictureAtLeast) {
   const Renderer renderer = make_renderer(strip_over_edge({}));
-  ASSERT_TRUE(renderer.render(look({1, 3, 5}, {0, 0, 0}, 50, 1), settings, {}, &statistics));
-  EXPECT_EQ(statistics.light_samples, 1);
-  EXPECT_EQ(statistics.noise, 0);
-  settings.light_samples = 0;
-  EXPECT_FALSE(renderer.render(look({1, 3, 5}, {0, 0, 0}, 50, 1), settings));
+  RenderSettings settings = test_settings(16, 16);
+  for (const int pictures : {0, -1, 65537}) {
+    settings.accumulate = pictures;
+    EXPECT_FALSE(renderer.render(look({1, 3, 5}, {0, 0, 0}, 50, 1), settings));
+  }
 }
 
 }  // namespace

@@ -384,7 +384,7 @@ TEST(Conventions, P4_SamplesLieInDirect3DsStandardPatterns) {
   // D3D11_STANDARD_MULTISAMPLE_PATTERN, in sixteenths of a pixel from its centre; the order does not matter.
   const auto offsets = [](int count) {
     std::set<std::pair<int, int>> all;
-    for (const shade::SampleOffset& o : shade::sample_offsets(count)) all.insert({o.x, o.y});
+    for (const shade::SampleOffset& o : shade::sample_offsets(count, {})) all.insert({o.x, o.y});
     return all;
   };
   const auto sixteenths = [](const std::set<std::pair<int, int>>& pattern) {

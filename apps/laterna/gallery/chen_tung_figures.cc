@@ -30,7 +30,7 @@ void draw_many_points(Sitting& sitting) {
   sun.source.height = 0.5;
   shot.settings.samples = 1;
   for (const int points : {1, 4, 16, 64}) {
-    shot.settings.light_samples = points;
+    shot.settings.accumulate = points;
     sitting.picture(points == 1 ? std::string("1 point: hard.") : fmt::format("{} points.", points), shot);
   }
 }
@@ -149,7 +149,7 @@ constexpr Figure kFigures[] = {
      "A light of half a metre by half a metre stands for 1, 4, 16 and 64 points. Where their shadows overlap "
      "it is darker.",
      "Few points show as steps: four give five levels of light at an edge, however large the picture.",
-     "\"size\": [0.5, 0.5] in the light, and: laterna render scene.glb --rig lamp.json --light-samples 64 -o "
+     "\"size\": [0.5, 0.5] in the light, and: laterna render scene.glb --rig lamp.json --accumulate 64 -o "
      "soft.png",
      draw_many_points},
     {"smoothing", "A soft shadow by smoothing", "Chen and Tung, figures 5 and 6",

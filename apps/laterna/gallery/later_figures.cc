@@ -50,7 +50,7 @@ void draw_soft(Sitting& sitting) {
       shot.with(ShadowTechnique::pcss));
   Shot truth = shot.with(ShadowTechnique::exact);
   truth.settings.samples = 1;
-  truth.settings.light_samples = 256;
+  truth.settings.accumulate = 256;
   sitting.picture("The mean of 256 exact pictures, each lit from another point of the light.", truth);
 }
 
