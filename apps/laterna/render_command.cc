@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "debug_picture.h"
+#include "frame_range.h"
 #include "laterna/measure.h"
 #include "layer_pictures.h"
 #include "outcome.h"
@@ -45,6 +46,7 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& map) {
 struct RenderOptions {
   SceneOptions scene;
   ViewOptions view;
+  TimeOptions time;
   std::string output, layer_pictures;
   std::string shadows = "map", shading = "pbr", passes = "single", interpolation = "perspective",
               depth = "auto";
@@ -196,16 +198,20 @@ class RenderCommand {
     }
     if (const std::string fault = find_output_fault(*settings); !fault.empty())
       return report(bad_option(fault));
-    if (Result<void> writable = check_image_output(options_.output); !writable)
+    const Result<std::vector<TimedOutput>> outputs = options_.time.outputs(options_.output);
+    if (!outputs) return report(outputs.error());
+    if (Result<void> writable = check_image_output(outputs->front().file); !writable)
       return report(writable.error());
-    const Result<Renderer> renderer = options_.scene.make_renderer([&](Scene& scene) {
-      if (*background) scene.background = *background;
-    });
+    Result<Renderer> renderer = options_.scene.make_renderer(
+        [&](Scene& scene) {
+          if (*background) scene.background = *background;
+        },
+        outputs->front().seconds);
     if (!renderer) return report(renderer.error());
     const Result<View> view = options_.view.find(*renderer, {settings->width, settings->height});
     if (!view) return report(view.error());
     load_ms_ = elapsed(start);
-    return draw(*renderer, *view, *settings, *exposure);
+    return draw_all(*renderer, *view, *settings, *exposure, *outputs);
   }
 
  private:
@@ -217,6 +223,9 @@ class RenderCommand {
     const bool has_passes = std::ranges::find(settings.layers, Layer::passes) != settings.layers.end();
     if (has_passes && settings.passes != Passes::multi) return "--layers passes needs --passes multi";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
+    if (options_.time.is_series() && !options_.layer_pictures.empty())
+      return "--layer-pictures: with --frames, each frame's would replace the last one's; give an output "
+             "that ends in .exr";
     if (!settings.layers.empty() && !keeps_layers(options_.output) && options_.layer_pictures.empty()) {
       return "--layers: only OpenEXR holds layers: give an output that ends in .exr, or --layer-pictures "
              "FOLDER";
@@ -224,7 +233,28 @@ class RenderCommand {
     return {};
   }
 
-  int draw(const Renderer& renderer, const View& view, const RenderSettings& settings, float exposure) {
+  int draw_all(Renderer& renderer, const View& view, const RenderSettings& settings, float exposure,
+               const std::vector<TimedOutput>& outputs) {
+    nlohmann::json pictures = nlohmann::json::array();
+    for (const TimedOutput& output : outputs) {
+      const Result<int> changed = renderer.set_time(output.seconds);
+      if (!changed) return report(changed.error());
+      is_first_ = &output == &outputs.front();
+      nlohmann::json picture = {
+          {"output", output.file}, {"time_s", output.seconds}, {"films_changed", *changed}};
+      if (const int outcome = draw(renderer, view, settings, exposure, picture); outcome != kOk)
+        return outcome;
+      if (options_.json) pictures.push_back(std::move(picture));
+    }
+    if (!options_.json) return kOk;
+    fmt::print("{}\n", options_.time.is_series() ? pictures.dump(2) : pictures[0].dump(2));
+    return kOk;
+  }
+
+  // `told`: what there is to tell in JSON, with the "output" to write.
+  int draw(const Renderer& renderer, const View& view, const RenderSettings& settings, float exposure,
+           nlohmann::json& told) {
+    const auto output = told.at("output").get<std::string>();
     RenderStatistics statistics;
     Result<LayeredImage> image = draw_image(renderer, view, settings, statistics);
     if (!image) return report(image.error());
@@ -239,7 +269,7 @@ class RenderCommand {
     }
     if (!is_debug) {
       write.exposure = exposure == 0 ? automatic_exposure(*image) : exposure;
-      if (!keeps_layers(options_.output)) advise_exposure(*image, write.exposure);
+      if (is_first_ && !keeps_layers(options_.output)) advise_exposure(*image, write.exposure);
     }
     const auto write_start = std::chrono::steady_clock::now();
     if (!options_.layer_pictures.empty()) {
@@ -250,15 +280,11 @@ class RenderCommand {
     if (!is_debug && !keeps_layers(options_.output)) {
       image->channels.resize(options_.background == "transparent" ? 4 : 3);
     }
-    if (Result<void> written = write_image(*image, options_.output, write); !written)
-      return report(written.error());
-    if (options_.json) {
-      nlohmann::json json = statistics_json(statistics, load_ms_, elapsed(write_start));
-      json["output"] = options_.output;
-      json["size"] = {image->width, image->height};
-      json["exposure"] = write.exposure;
-      fmt::print("{}\n", json.dump(2));
-    }
+    if (Result<void> written = write_image(*image, output, write); !written) return report(written.error());
+    if (!options_.json) return kOk;
+    told.update(statistics_json(statistics, load_ms_, elapsed(write_start)));
+    told["size"] = {image->width, image->height};
+    told["exposure"] = write.exposure;
     return kOk;
   }
 
@@ -271,10 +297,10 @@ class RenderCommand {
     return std::move(shown->picture);
   }
 
-  static Result<LayeredImage> draw_light(const Renderer& renderer, const View& view,
-                                         const RenderSettings& settings, RenderStatistics& statistics) {
+  Result<LayeredImage> draw_light(const Renderer& renderer, const View& view, const RenderSettings& settings,
+                                  RenderStatistics& statistics) const {
     Result<LayeredImage> image = renderer.render(view, settings, progress_line("rendering"), &statistics);
-    if (!image) return image;
+    if (!image || !is_first_) return image;
     if (settings.light_samples == 1) {
       advise_softness(renderer.scene(), settings.shadows);
       return image;
@@ -291,6 +317,7 @@ class RenderCommand {
   const RenderOptions& options_;
   std::optional<DebugChoice> debug_;
   double load_ms_ = 0;
+  bool is_first_ = true;  // picture of a series: what there is to remark is remarked once
 };
 
 constexpr const char* kFooter =
@@ -302,6 +329,7 @@ constexpr const char* kFooter =
     "  laterna render room.glb --rig stage.json -o room.png --size 1920x1080 --samples 4\n"
     "  laterna render room.glb --rig stage.json -o room.exr --layers light,lux,visibility\n"
     "  laterna render room.glb --rig stage.json --from-light lantern -o what-the-lantern-sees.png\n"
+    "  laterna render room.glb --rig film.json --frames 0:47 --fps 24 -o film.####.png\n"
     "  laterna render room.glb -o - | display\n";
 
 void declare_picture_options(CLI::App& command, RenderOptions& o) {
@@ -358,6 +386,7 @@ void declare_render(CLI::App& app, Run& run) {
                    "picture to write: .png, .exr, .hdr or .pfm; - is PNG on standard output")
       ->required();
   o.view.declare(*command);
+  o.time.declare(*command);
   declare_picture_options(*command, o);
   std::vector<std::string> layers = {"all"};
   for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);
