@@ -1,7 +1,10 @@
 // Segal et al. 1992, section 3.1: slides that change with time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/ext/matrix_transform.hpp>
+#include <limits>
 
 #include "reference/everything.h"
 #include "reference/projector_scenes.h"
@@ -113,7 +116,9 @@ TEST(MovieProjection, LoopHoldBlackAndPingPong) {
     const auto column = [&](int frame) {
       EXPECT_TRUE(renderer.set_time(frame / 24.0));
       const LayeredImage image = draw(renderer);
-      Result<Renderer> there = Renderer::create(s.scene, {.time = frame / 24.0});
+      RendererOptions options;
+      options.time = frame / 24.0;
+      const Result<Renderer> there = Renderer::create(s.scene, options);
       EXPECT_TRUE(there && same_bits(image, draw(*there)));
       return white_column(image, kLens);
     };
