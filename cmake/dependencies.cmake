@@ -15,6 +15,8 @@ find_package(draco REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(CLI11 REQUIRED)
+# For video slides only; without it everything else is built, and a video is an error that says what is missing.
+pkg_check_modules(ffmpeg IMPORTED_TARGET libavformat>=59 libavcodec>=59 libavutil>=57)
 
 # Highway is used through its headers only: its shared library calibrates a timer at every process start (7 ms), and
 # we choose the instruction set per render call, not per process (src/base/instruction_set.h).

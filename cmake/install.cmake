@@ -5,6 +5,9 @@ include(CMakePackageConfigHelpers)
 install(TARGETS laterna EXPORT laternaTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/laterna DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(TARGETS laterna_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET laterna_ffmpeg)
+  install(TARGETS laterna_ffmpeg LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/laterna)
+endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The command finds the library beside it, wherever the two are moved to.

@@ -31,6 +31,7 @@ PUBLIC_HEADERS = {
     "accuracy.h": "measure",
     "build_info.h": "measure",
     "false_color.h": "measure",
+    "film.h": "image",
     "image.h": "image",
     "instruction_set.h": "base",
     "lamps.h": "scene",
@@ -68,6 +69,7 @@ LIBRARIES = {
     "draco/": ["scene"],
     "meshoptimizer.h": ["scene"],
     "embree3/": ["trace"],
+    "libav": [],  # plugins/ alone: they are loaded only when a video is opened
 }
 VERSIONS_OF_ALL = "src/measure/build_info.cc"
 
@@ -186,6 +188,15 @@ def check_outside(root, folder, faults):
                 faults.add(f"{relative}:{number}", f'includes "{name}"; expected only "laterna/..." or a file beside it')
 
 
+def check_plugins(root, faults):
+    """plugins/ share with the library what src/ calls their interface, and nothing else."""
+    for path in sources(root, "plugins"):
+        relative = path.relative_to(root).as_posix()
+        for number, name, quoted in includes_of(path):
+            if quoted and not name.endswith("_interface.h") and not name.startswith("libav"):
+                faults.add(f"{relative}:{number}", f'includes "{name}"; expected only a header named ..._interface.h')
+
+
 def check_reaching_in(root, folder, faults):
     """tests/, bench/ and fuzz/ may reach every room and the command line's own files, by a path that exists."""
     for path in sources(root, folder):
@@ -274,6 +285,7 @@ def main():
     check_public(root, faults)
     for folder in ("apps", "examples"):
         check_outside(root, folder, faults)
+    check_plugins(root, faults)
     for folder in ("tests", "bench", "fuzz"):
         check_reaching_in(root, folder, faults)
     check_circles(root, faults)

@@ -15,7 +15,8 @@ BUILD="g++ make cmake ninja-build pkgconf python3
   libhwy-dev libtbb-dev libglm-dev libexpected-dev libfmt-dev
   libpng-dev libturbojpeg0-dev libjpeg-dev libopenexr-dev libdeflate-dev libisal-dev
   nlohmann-json3-dev libassimp-dev libdraco-dev libmeshoptimizer-dev
-  libembree-dev libcli11-dev libgtest-dev valgrind"
+  libembree-dev libcli11-dev libgtest-dev valgrind
+  libavformat-dev libavcodec-dev libavutil-dev"
 
 wanted=$BUILD
 for task in "${@:-build}"; do

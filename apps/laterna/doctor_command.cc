@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "laterna/build_info.h"
+#include "laterna/film.h"
 #include "laterna/render.h"
 #include "outcome.h"
 
@@ -70,6 +71,8 @@ int run_doctor(bool as_json) {
             {"same_bits_on_every_set", *agree},
             {"gpu_needed", false},
             {"display_needed", false}};
+  const VideoSupport video = video_support();
+  j["video"] = {{"available", video.is_there}, {"detail", video.description}};
   for (const InstructionSet set : supported_instruction_sets()) j["instruction_sets"].push_back(name_of(set));
   for (const Component& c : components()) j["components"][c.name] = c.version;
   if (as_json) {
@@ -87,6 +90,7 @@ int run_doctor(bool as_json) {
                     : "PICTURES DIFFER between instruction sets: please report this machine");
   fmt::print("{:<18} not needed\n", "GPU, display");
   for (const Component& c : components()) fmt::print("{:<18} {}\n", c.name, c.version);
+  fmt::print("{:<18} {}\n", "video", video.is_there ? video.description : "none: " + video.description);
   return *agree ? kOk : kComparisonFailed;
 }
 

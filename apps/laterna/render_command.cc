@@ -15,6 +15,7 @@
 
 #include "debug_picture.h"
 #include "false_color.h"
+#include "frame_range.h"
 #include "laterna/light_color.h"
 #include "laterna/measure.h"
 #include "layer_pictures.h"
@@ -47,6 +48,7 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& map) {
 struct RenderOptions {
   SceneOptions scene;
   ViewOptions view;
+  TimeOptions time;
   std::string output, layer_pictures;
   std::string shadows = "map", shading = "pbr", passes = "single", interpolation = "perspective",
               depth = "auto";
@@ -211,17 +213,21 @@ class RenderCommand {
     }
     if (const std::string fault = find_output_fault(*settings); !fault.empty())
       return report(bad_option(fault));
-    if (Result<void> writable = check_image_output(options_.output); !writable)
+    const Result<std::vector<TimedOutput>> outputs = options_.time.outputs(options_.output);
+    if (!outputs) return report(outputs.error());
+    if (Result<void> writable = check_image_output(outputs->front().file); !writable)
       return report(writable.error());
-    const Result<Renderer> renderer = options_.scene.make_renderer([&](Scene& scene) {
-      if (*background) scene.background = *background;
-    });
+    Result<Renderer> renderer = options_.scene.make_renderer(
+        [&](Scene& scene) {
+          if (*background) scene.background = *background;
+        },
+        outputs->front().seconds);
     if (!renderer) return report(renderer.error());
     const Result<View> view = options_.view.find(*renderer, {settings->width, settings->height});
     if (!view) return report(view.error());
     load_ms_ = elapsed(start);
     advise_luminance(*settings, false_color_);
-    return draw(*renderer, *view, *settings, *exposure);
+    return draw_all(*renderer, *view, *settings, *exposure, *outputs);
   }
 
  private:
@@ -237,6 +243,9 @@ class RenderCommand {
     if (options_.progressive && options_.output == "-")
       return "--progressive and -o - would write several pictures to standard output";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
+    if (options_.time.is_series() && !options_.layer_pictures.empty())
+      return "--layer-pictures: with --frames, each frame's would replace the last one's; give an output "
+             "that ends in .exr";
     if (!settings.layers.empty() && !keeps_layers(options_.output) && options_.layer_pictures.empty()) {
       return "--layers: only OpenEXR holds layers: give an output that ends in .exr, or --layer-pictures "
              "FOLDER";
@@ -244,7 +253,28 @@ class RenderCommand {
     return {};
   }
 
-  int draw(const Renderer& renderer, const View& view, const RenderSettings& settings, float exposure) {
+  int draw_all(Renderer& renderer, const View& view, const RenderSettings& settings, float exposure,
+               const std::vector<TimedOutput>& outputs) {
+    nlohmann::json pictures = nlohmann::json::array();
+    for (const TimedOutput& output : outputs) {
+      const Result<int> changed = renderer.set_time(output.seconds);
+      if (!changed) return report(changed.error());
+      is_first_ = &output == &outputs.front();
+      nlohmann::json picture = {
+          {"output", output.file}, {"time_s", output.seconds}, {"films_changed", *changed}};
+      if (const int outcome = draw(renderer, view, settings, exposure, picture); outcome != kOk)
+        return outcome;
+      if (options_.json) pictures.push_back(std::move(picture));
+    }
+    if (!options_.json) return kOk;
+    fmt::print("{}\n", options_.time.is_series() ? pictures.dump(2) : pictures[0].dump(2));
+    return kOk;
+  }
+
+  // `told`: what there is to tell in JSON, with the "output" to write.
+  int draw(const Renderer& renderer, const View& view, const RenderSettings& settings, float exposure,
+           nlohmann::json& told) {
+    output_ = told.at("output").get<std::string>();
     RenderStatistics statistics;
     settings_ = settings;
     threads_ = renderer.threads();
@@ -252,7 +282,7 @@ class RenderCommand {
     if (!image) return report(image.error());
     if (shows_light()) {
       if (exposure == 0) exposure = automatic_exposure(*image);
-      if (!keeps_layers(options_.output)) advise_exposure(*image, exposure);
+      if (is_first_ && !keeps_layers(output_)) advise_exposure(*image, exposure);
     } else {
       exposure = 1;
     }
@@ -264,13 +294,10 @@ class RenderCommand {
     const int width = image->width, height = image->height;
     if (Result<void> written = write_picture(std::move(*image), exposure); !written)
       return report(written.error());
-    if (options_.json) {
-      nlohmann::json json = statistics_json(statistics, load_ms_, elapsed(write_start));
-      json["output"] = options_.output;
-      json["size"] = {width, height};
-      json["exposure"] = exposure;
-      fmt::print("{}\n", json.dump(2));
-    }
+    if (!options_.json) return kOk;
+    told.update(statistics_json(statistics, load_ms_, elapsed(write_start)));
+    told["size"] = {width, height};
+    told["exposure"] = exposure;
     return kOk;
   }
 
@@ -300,7 +327,7 @@ class RenderCommand {
     Result<LayeredImage> image =
         renderer.render(view, settings, progress_line("rendering"), &statistics, preview);
     if (!written) return tl::unexpected(written.error());
-    if (!image) return image;
+    if (!image || !is_first_) return image;
     if (settings.accumulate == 1) {
       advise_softness(renderer.scene(), settings.shadows);
     } else {
@@ -322,7 +349,7 @@ class RenderCommand {
     write.depth = kDepth.at(options_.depth);
     // In half precision the lights' layers would no longer add up to beauty.
     const bool has_light_layers = std::ranges::find(settings_.layers, Layer::light) != settings_.layers.end();
-    if (has_light_layers && keeps_layers(options_.output) && options_.depth == "auto")
+    if (has_light_layers && keeps_layers(output_) && options_.depth == "auto")
       write.depth = WriteOptions::Depth::single;
     write.threads = threads_;
     write.exposure = exposure;
@@ -331,17 +358,19 @@ class RenderCommand {
 
   // Formats for the screen hold neither layers nor, unless it was asked for, coverage.
   [[nodiscard]] Result<void> write_picture(LayeredImage image, float exposure) const {
-    if (shows_light() && !keeps_layers(options_.output))
+    if (shows_light() && !keeps_layers(output_))
       image.channels.resize(options_.background == "transparent" ? 4 : 3);
-    return write_image(image, options_.output, write_options(exposure));
+    return write_image(image, output_, write_options(exposure));
   }
 
   const RenderOptions& options_;
   std::optional<DebugChoice> debug_;
   std::optional<FalseColorChoice> false_color_;
   RenderSettings settings_;
+  std::string output_;
   int threads_ = 0;
   double load_ms_ = 0;
+  bool is_first_ = true;  // picture of a series: what there is to remark is remarked once
 };
 
 constexpr const char* kFooter =
@@ -353,6 +382,7 @@ constexpr const char* kFooter =
     "  laterna render room.glb --rig stage.json -o room.png --size 1920x1080 --samples 4\n"
     "  laterna render room.glb --rig stage.json -o room.exr --layers light,lux,visibility\n"
     "  laterna render room.glb --rig stage.json --from-light lantern -o what-the-lantern-sees.png\n"
+    "  laterna render room.glb --rig film.json --frames 0:47 --fps 24 -o film.####.png\n"
     "  laterna render room.glb -o - | display\n";
 
 void declare_picture_options(CLI::App& command, RenderOptions& o) {
@@ -411,6 +441,7 @@ void declare_render(CLI::App& app, Run& run) {
                    "picture to write: .png, .exr, .hdr or .pfm; - is PNG on standard output")
       ->required();
   o.view.declare(*command);
+  o.time.declare(*command);
   declare_picture_options(*command, o);
   std::vector<std::string> layers = {"all"};
   for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);

@@ -62,9 +62,10 @@ Result<RendererOptions> SceneOptions::renderer_options() const {
   return options;
 }
 
-Result<Renderer> SceneOptions::make_renderer(const std::function<void(Scene&)>& amend) const {
-  const Result<RendererOptions> options = renderer_options();
+Result<Renderer> SceneOptions::make_renderer(const std::function<void(Scene&)>& amend, double time) const {
+  Result<RendererOptions> options = renderer_options();
   if (!options) return tl::unexpected(options.error());
+  options->time = time;
   Result<Scene> scene = load();
   if (!scene) return tl::unexpected(std::move(scene.error()));
   if (amend) amend(*scene);

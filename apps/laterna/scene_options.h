@@ -27,8 +27,9 @@ struct SceneOptions {
   [[nodiscard]] double metres_per_unit() const;  ///< of --unit
   [[nodiscard]] Result<Scene> load() const;
   [[nodiscard]] Result<RendererOptions> renderer_options() const;
-  /// Loads the scene, lets `amend` change it, makes it ready, and tells its warnings.
-  [[nodiscard]] Result<Renderer> make_renderer(const std::function<void(Scene&)>& amend = {}) const;
+  /// Loads the scene, lets `amend` change it, makes it ready at a scene time in seconds, and tells its warnings.
+  [[nodiscard]] Result<Renderer> make_renderer(const std::function<void(Scene&)>& amend = {},
+                                               double time = 0) const;
 };
 
 struct ViewOptions {

@@ -135,6 +135,7 @@ struct RenderStatistics {
 struct RendererOptions {
   int threads = 0;                                ///< 0: one per processor
   std::optional<InstructionSet> instruction_set;  ///< unset: the best this machine has
+  double time = 0;                                ///< scene time in seconds: see Renderer::set_time
 };
 
 /// A shadow map, as seen by its light.
@@ -210,6 +211,12 @@ class Renderer {
   /// Sets Photograph::gain of every photograph, in their order. Not to be called during a render.
   /// Error: another number of gains than photographs, or one that is not finite and above 0.
   Result<void> set_photograph_gains(std::span<const glm::vec3> gains);
+  /// Scene time in seconds, within ±kMaxSceneTime: every film shows its frame of that time. Returns how many films show
+  /// another frame than before; nothing else is made anew, shadow maps are kept. Frames at evenly spaced times, forward or
+  /// backward, are made ready ahead. Not to be called during a render. Error: a frame that cannot be read; the time and
+  /// all films then stay as they were.
+  Result<int> set_time(double seconds);
+  [[nodiscard]] double time() const;
 
   /// The depth maps of a light's shadow maps: one, or six for a light that shines all round. Channel "Z": metres along
   /// the map's axis, +infinity where nothing is. `statistics`: what drawing cost, up to the conversion to metres.

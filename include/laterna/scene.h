@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "laterna/film.h"
 #include "laterna/image.h"
 #include "laterna/lens.h"
 #include "laterna/photographs.h"
@@ -38,6 +39,8 @@ struct Picture {
   std::shared_ptr<const std::vector<std::byte>> encoded_owner;  ///< keeps `encoded` alive
   std::span<const std::byte> encoded;                           ///< bytes of a PNG, JPEG, … file
   std::shared_ptr<const Image> pixels;                          ///< decoded by the caller
+  /// `file` is a film (film.h), which shows another frame at another time. Only slides of lights may be films.
+  std::optional<FilmTiming> film;
 };
 
 /// A picture bound to a set of texture coordinates. (u, v) = (0, 0) is the top-left corner of the picture.

@@ -1,12 +1,13 @@
 #include "frame/texture_library.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <system_error>
+
+#include "image/film.h"
+#include "image/finite_values.h"
 
 namespace laterna::frame {
 namespace {
@@ -47,17 +48,8 @@ std::uintmax_t encoded_bytes(const Picture& picture) {
   return ignored ? 0 : size;
 }
 
-// A texel that is no number would spread over every level of the picture, and from there over what is rendered.
-void check_values(const Image& image, const Picture& picture, std::vector<Diagnostic>& faults) {
-  const std::span<const float> values = image.values<float>();
-  const auto bad = std::find_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); });
-  if (bad == values.end()) return;
-  const auto pixel =
-      static_cast<std::size_t>(bad - values.begin()) / static_cast<std::size_t>(image.channels());
-  const auto width = static_cast<std::size_t>(image.width());
-  const std::string name = picture.name.empty() ? picture.file.string() : picture.name;
-  faults.push_back({name, fmt::format("pixel {}, {}", pixel % width, pixel / width),
-                    fmt::format("expected finite numbers in a picture that is used, got {}", *bad)});
+std::string name_of(const Picture& picture) {
+  return picture.name.empty() ? picture.file.string() : picture.name;
 }
 
 }  // namespace
@@ -76,14 +68,19 @@ Result<TextureLibrary> TextureLibrary::load(const Scene& scene, const TaskPool& 
   return loading.finish();
 }
 
-TextureLoading::TextureLoading(const Scene& scene, InstructionSet set) : scene_(scene), set_(set) {
+TextureLoading::TextureLoading(const Scene& scene, InstructionSet set, double scene_time)
+    : scene_(scene), set_(set), scene_time_(scene_time) {
   for (const Request& request : requests(scene)) {
     const auto [index, use] = request;
     if (pictures_.empty() || pictures_.back().index != index) {
       pictures_.push_back({index, {}, encoded_bytes(scene.pictures[static_cast<std::size_t>(index)]), {}});
     }
     pictures_.back().uses.push_back(use);
-    library_.chains_[request] = nullptr;
+    if (scene.pictures[static_cast<std::size_t>(index)].film) {
+      library_.films_[index] = {};
+    } else {
+      library_.chains_[request] = nullptr;
+    }
   }
   // Else a thread might end with the largest picture alone.
   std::stable_sort(pictures_.begin(), pictures_.end(),
@@ -93,6 +90,10 @@ TextureLoading::TextureLoading(const Scene& scene, InstructionSet set) : scene_(
 void TextureLoading::run(std::size_t task) {
   UsedPicture& used = pictures_[task];
   const Picture& picture = scene_.pictures[static_cast<std::size_t>(used.index)];
+  if (picture.film) {
+    open_film(used, picture);
+    return;
+  }
   Result<Image> decoded;
   const Image* pixels = picture.pixels.get();
   if (pixels == nullptr) {
@@ -103,12 +104,28 @@ void TextureLoading::run(std::size_t task) {
     }
     pixels = &*decoded;
   }
-  check_values(*pixels, picture, used.faults);
-  if (!used.faults.empty()) return;
+  if (auto fault = image::find_not_finite(*pixels, name_of(picture))) {
+    used.faults.push_back(std::move(*fault));
+    return;
+  }
   for (const image::MipUse use : used.uses) {
     library_.chains_.at({used.index, use}) =
         std::make_unique<image::MipChain>(image::make_mip_chain(*pixels, use, set_));
   }
+}
+
+void TextureLoading::open_film(UsedPicture& used, const Picture& picture) {
+  auto film = image::Film::open(picture.file, *picture.film, used.uses, set_);
+  if (!film) {
+    used.faults = std::move(film.error().diagnostics);
+    return;
+  }
+  Result<std::shared_ptr<const image::FilmFrame>> frame = (*film)->at(scene_time_);
+  if (!frame) {
+    used.faults = std::move(frame.error().diagnostics);
+    return;
+  }
+  library_.films_.at(used.index) = {std::move(*film), std::move(*frame)};
 }
 
 Result<TextureLibrary> TextureLoading::finish() {
@@ -120,12 +137,43 @@ Result<TextureLibrary> TextureLoading::finish() {
     for (Diagnostic& fault : picture.faults) error.diagnostics.push_back(std::move(fault));
   }
   if (!error.diagnostics.empty()) return tl::unexpected(std::move(error));
+  for (const auto& [index, shown] : library_.films_) {
+    const std::vector<Diagnostic>& warnings = shown.film->warnings();
+    library_.warnings_.insert(library_.warnings_.end(), warnings.begin(), warnings.end());
+  }
   return std::move(library_);
 }
 
 const image::MipChain* TextureLibrary::find(int picture, image::MipUse use) const {
+  if (const auto film = films_.find(picture); film != films_.end()) {
+    const auto chain = film->second.frame->chains.find(use);
+    return chain == film->second.frame->chains.end() ? nullptr : &chain->second;
+  }
   const auto found = chains_.find({picture, use});
   return found == chains_.end() ? nullptr : found->second.get();
+}
+
+Result<int> TextureLibrary::show(double scene_time) {
+  std::map<int, std::shared_ptr<const image::FilmFrame>> frames;
+  Error error;
+  for (const auto& [index, shown] : films_) {
+    auto frame = shown.film->at(scene_time);
+    if (frame) {
+      frames.emplace(index, std::move(*frame));
+    } else {
+      std::move(frame.error().diagnostics.begin(), frame.error().diagnostics.end(),
+                std::back_inserter(error.diagnostics));
+    }
+  }
+  if (!error.diagnostics.empty()) return tl::unexpected(std::move(error));
+  int changed = 0;
+  for (auto& [index, frame] : frames) {
+    ShownFilm& shown = films_.at(index);
+    if (frame->number == shown.frame->number) continue;
+    shown.frame = std::move(frame);
+    ++changed;
+  }
+  return changed;
 }
 
 }  // namespace laterna::frame

@@ -10,6 +10,11 @@
 #include "image/mip_chain.h"
 #include "laterna/scene.h"
 
+namespace laterna::image {
+class Film;
+struct FilmFrame;
+}  // namespace laterna::image
+
 namespace laterna::frame {
 
 class TextureLibrary {
@@ -19,19 +24,31 @@ class TextureLibrary {
   static Result<TextureLibrary> load(const Scene& scene, const TaskPool& pool,
                                      InstructionSet set = best_instruction_set());
 
-  /// Null where `picture` is −1 or was not asked for with this use.
+  /// Null where `picture` is −1 or was not asked for with this use. Of a film: the frame shown now, until the next show().
   [[nodiscard]] const image::MipChain* find(int picture, image::MipUse use) const;
+
+  /// Every film's frame at a scene time. Returns how many films show another than before. After an error, collected from all
+  /// films, all show what they did.
+  Result<int> show(double scene_time);
+  /// Of films that end early.
+  [[nodiscard]] const std::vector<Diagnostic>& warnings() const { return warnings_; }
 
  private:
   friend class TextureLoading;
-  std::map<std::pair<int, image::MipUse>, std::unique_ptr<image::MipChain>> chains_;
+  struct ShownFilm {
+    std::shared_ptr<image::Film> film;
+    std::shared_ptr<const image::FilmFrame> frame;
+  };
+  std::map<std::pair<int, image::MipUse>, std::unique_ptr<image::MipChain>> chains_;  // of stills
+  std::map<int, ShownFilm> films_;                                                    // by picture
+  std::vector<Diagnostic> warnings_;
 };
 
 /// The same as tasks, for whoever has others to do at the same time.
 class TextureLoading {
  public:
-  /// The scene must outlive this.
-  TextureLoading(const Scene& scene, InstructionSet set);
+  /// The scene must outlive this. Films show their frame of `scene_time`.
+  TextureLoading(const Scene& scene, InstructionSet set, double scene_time = 0);
 
   /// One per picture, those that take longest first.
   [[nodiscard]] std::size_t task_count() const { return pictures_.size(); }
@@ -49,8 +66,11 @@ class TextureLoading {
     std::vector<Diagnostic> faults;
   };
 
+  void open_film(UsedPicture& used, const Picture& picture);
+
   const Scene& scene_;
   InstructionSet set_;
+  double scene_time_;
   std::vector<UsedPicture> pictures_;
   TextureLibrary library_;
 };

@@ -32,6 +32,8 @@ constexpr std::array kNotRead = {
     KnownSignature{0, std::string_view("MM\0*", 4), "TIFF"},
     KnownSignature{4, "ftypavif", "AVIF"},
     KnownSignature{4, "ftypheic", "HEIC"},
+    KnownSignature{4, "ftyp", "an MP4 or QuickTime film"},
+    KnownSignature{0, "\x1a\x45\xdf\xa3", "a Matroska or WebM film"},
     KnownSignature{0, "<svg", "SVG"},
     KnownSignature{0, "P7\n", "PAM"},
 };
@@ -89,6 +91,8 @@ Result<Image> decode_with(const Decoder& decoder, const EncodedPicture& encoded)
       unreadable(encoded, {}, "not enough memory for " + size_text(*header) + " pixels").value(),
       [&] { return decoder.decode(encoded, *header); });
 }
+
+bool is_picture(const EncodedPicture& encoded) { return find_decoder(encoded).has_value(); }
 
 bool begins_with(std::span<const std::byte> bytes, std::string_view signature) {
   return bytes.size() >= signature.size() &&

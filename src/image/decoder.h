@@ -38,6 +38,9 @@ Result<ImageHeader> read_checked_header(const Decoder& decoder, const EncodedPic
 /// The picture; nothing is thrown.
 Result<Image> decode_with(const Decoder& decoder, const EncodedPicture& encoded);
 
+/// Whether it begins, or is named, as one of the formats that are read.
+bool is_picture(const EncodedPicture& encoded);
+
 /// True when the bytes begin with `signature`.
 bool begins_with(std::span<const std::byte> bytes, std::string_view signature);
 

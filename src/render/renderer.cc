@@ -69,11 +69,12 @@ struct Renderer::Implementation {
   Implementation(Scene s, const RendererOptions& options)
       : scene(std::move(s)),
         pool(options.threads),
-        set(options.instruction_set.value_or(best_instruction_set())) {}
+        set(options.instruction_set.value_or(best_instruction_set())),
+        time(options.time) {}
 
   // Pictures are decoded and triangles cut into clusters at the same time.
   Result<void> load() {
-    frame::TextureLoading pictures(scene, set);
+    frame::TextureLoading pictures(scene, set, time);
     frame::MeshClustering clusters(scene);
     pool.for_each(pictures.task_count() + clusters.task_count(), [&](std::size_t task, int) {
       if (task < pictures.task_count()) {
@@ -84,7 +85,7 @@ struct Renderer::Implementation {
     });
     Result<frame::TextureLibrary> library = pictures.finish();
     if (!library) return tl::unexpected(std::move(library.error()));
-    textures = std::make_shared<const frame::TextureLibrary>(std::move(*library));
+    textures = std::make_shared<frame::TextureLibrary>(std::move(*library));
     meshes = clusters.take();
     return rebuild();
   }
@@ -253,7 +254,8 @@ struct Renderer::Implementation {
   Scene scene;
   TaskPool pool;
   InstructionSet set;
-  std::shared_ptr<const frame::TextureLibrary> textures;
+  double time;
+  std::shared_ptr<frame::TextureLibrary> textures;
   frame::ClusteredMeshes meshes;
   frame::Frame frame;
   std::uint64_t casters_revision = 0;
@@ -286,6 +288,9 @@ Result<Renderer> Renderer::create(Scene scene, const RendererOptions& options) {
     render::warn_of_open_sheets(scene);
     auto implementation = std::make_unique<Implementation>(std::move(scene), options);
     if (Result<void> built = implementation->load(); !built) return tl::unexpected(std::move(built.error()));
+    const std::vector<Diagnostic>& warnings = implementation->textures->warnings();
+    std::vector<Diagnostic>& told = implementation->scene.warnings;
+    told.insert(told.end(), warnings.begin(), warnings.end());
     return Renderer(std::move(implementation));
   });
 }
@@ -551,6 +556,20 @@ Result<void> Renderer::set_photograph_gains(std::span<const glm::vec3> gains) {
   }
   return {};
 }
+
+Result<int> Renderer::set_time(double seconds) {
+  Implementation& self = *implementation_;
+  if (Result<void> checked = render::check_time(seconds); !checked) return tl::unexpected(checked.error());
+  return guarded([&]() -> Result<int> {
+    Result<int> changed = self.textures->show(seconds);
+    if (!changed) return changed;
+    self.time = seconds;
+    if (*changed > 0) self.frame.place_lights_and_cameras(self.scene);
+    return changed;
+  });
+}
+
+double Renderer::time() const { return implementation_->time; }
 
 Result<light::PlannedLight> Renderer::Implementation::find_light(light::LightPlan plan,
                                                                  const std::string& name) {

@@ -1,5 +1,7 @@
 #include "render/settings_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/refuse.h"
@@ -18,7 +20,14 @@ constexpr int kMaxThreads = 1024;
 
 }  // namespace
 
+Result<void> check_time(double seconds) {
+  if (std::abs(seconds) <= kMaxSceneTime) return {};
+  return refuse(fmt::format("a time must be from {:.0f} to {:.0f} seconds, not {}", -kMaxSceneTime,
+                            kMaxSceneTime, seconds));
+}
+
 Result<void> check_options(const RendererOptions& options) {
+  if (Result<void> checked = check_time(options.time); !checked) return checked;
   if (options.threads < 0 || options.threads > kMaxThreads) {
     return refuse("threads must be from 0 (one per processor) to " + std::to_string(kMaxThreads) + ", not " +
                   std::to_string(options.threads));

@@ -7,6 +7,8 @@
 namespace laterna::render {
 
 Result<void> check_options(const RendererOptions& options);
+/// A scene time in seconds.
+Result<void> check_time(double seconds);
 Result<void> check_settings(const RenderSettings& settings, const View& view);
 /// Whether all lights that name no technique of their own can have this one.
 Result<void> check_technique(ShadowTechnique technique, const frame::Frame& frame);

@@ -74,7 +74,14 @@ std::vector<int> SceneMerger::add_pictures(std::vector<Picture>& pictures) {
   std::vector<int> new_index;
   for (Picture& picture : pictures) {
     const auto next = static_cast<int>(merged_.pictures.size());
-    if (!picture.file.empty()) {
+    if (picture.film) {
+      // Two projectors that show one film at the same times share it.
+      const auto known = std::find_if(
+          merged_.pictures.begin(), merged_.pictures.end(),
+          [&](const Picture& other) { return other.film == picture.film && other.file == picture.file; });
+      new_index.push_back(static_cast<int>(known - merged_.pictures.begin()));
+      if (known != merged_.pictures.end()) continue;
+    } else if (!picture.file.empty()) {
       std::error_code ignored;
       std::filesystem::path key = std::filesystem::weakly_canonical(picture.file, ignored);
       if (key.empty()) key = picture.file;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/elementary.h"
+#include "laterna/film.h"
 #include "laterna/image.h"
 #include "laterna/lamps.h"
 #include "laterna/light_color.h"
@@ -255,7 +256,9 @@ class LightReader {
       object_.error("intensity_map", "give either slide or intensity_map, not both");
     }
     light_.slide_is_intensity = object_.has("intensity_map");
-    light_.slide = read_slide(light_.slide_is_intensity ? "intensity_map" : "slide");
+    light_.slide =
+        object_.has("film") ? read_film() : read_slide(light_.slide_is_intensity ? "intensity_map" : "slide");
+    reject_timing_without_film();
     light_.profile = object_
                          .choice<BeamProfile>("profile", {{"flat_field", BeamProfile::flat_field},
                                                           {"uniform_candela", BeamProfile::uniform_candela}})
@@ -325,6 +328,57 @@ class LightReader {
     return static_cast<int>(pictures_.size()) - 1;
   }
 
+  int read_film() {
+    for (const std::string_view other : {"slide", "intensity_map"}) {
+      if (object_.any(other) != nullptr)
+        object_.error("film", fmt::format("give either film or {}, not both", other));
+    }
+    const FilmTiming timing = read_film_timing();
+    const std::optional<std::string> name = object_.string("film");
+    if (!name) return -1;
+    Picture picture;
+    picture.film = timing;
+    auto path = resolve_typed_file(folder_, *name);
+    if (path) {
+      picture.file = std::move(*path);
+    } else if (is_numbered(*name)) {
+      picture.file = folder_ / *name;
+    } else {
+      object_.error("film", path.error());
+      return -1;
+    }
+    if (path && object_.has("fps"))
+      object_.error(
+          "fps", "has no effect: this file says itself how long its frames last; \"rate\" makes it faster");
+    picture.name = picture.file.string();
+    pictures_.push_back(std::move(picture));
+    return static_cast<int>(pictures_.size()) - 1;
+  }
+
+  FilmTiming read_film_timing() {
+    constexpr NumberRange kSceneTime{-kMaxSceneTime, kMaxSceneTime, false, false};
+    constexpr NumberRange kRate{0, kMaxFilmRate, true, false};
+    constexpr NumberRange kFramesPerSecond{0, kMaxFramesPerSecond, true, false};
+    FilmTiming timing;
+    timing.frames_per_second = object_.number("fps", kFramesPerSecond).value_or(timing.frames_per_second);
+    timing.start = object_.number("start", kSceneTime).value_or(timing.start);
+    timing.rate = object_.number("rate", kRate).value_or(timing.rate);
+    timing.at_end = object_
+                        .choice<AtEnd>("at_end", {{"loop", AtEnd::loop},
+                                                  {"hold", AtEnd::hold},
+                                                  {"black", AtEnd::black},
+                                                  {"ping_pong", AtEnd::ping_pong}})
+                        .value_or(timing.at_end);
+    return timing;
+  }
+
+  void reject_timing_without_film() {
+    if (object_.has("film")) return;
+    for (const std::string_view name : {"fps", "start", "rate", "at_end"}) {
+      if (object_.any(name) != nullptr) object_.error(name, "belongs to a \"film\", and there is none");
+    }
+  }
+
   // A horizontal field of view leaves the vertical one to the slide's shape, and a lens distorts a frame of some
   // shape, so the slide's header is read now. Elsewhere the renderer fits the width when it has decoded the slide.
   std::optional<double> aspect_for_lens() {
@@ -332,6 +386,12 @@ class LightReader {
     if (!distorts && !needs_aspect_of_picture(object_)) return std::nullopt;
     if (light_.slide < 0) return 1;
     const Picture& picture = pictures_.back();
+    if (picture.film) {
+      const Result<FilmHeader> film = read_film_header(picture.file, picture.film->frames_per_second);
+      if (film) return static_cast<double>(film->width) / film->height;
+      object_.error("film", to_string(film.error()));
+      return 1;
+    }
     const Result<ImageHeader> header = read_image_header(picture.file);
     if (header) return static_cast<double>(header->width) / header->height;
     object_.error(light_.slide_is_intensity ? "intensity_map" : "slide", to_string(header.error()));

@@ -84,6 +84,7 @@ class Validator {
   }
 
   void check_pictures();
+  void check_film(const Picture& picture, const std::string& place);
   void check_texture(const Texture& texture, const std::string& place);
   void check_material(const Material& material, const std::string& place);
   void check_meshes();
@@ -130,11 +131,30 @@ void Validator::check_pictures() {
     }
     if (picture.pixels && picture.pixels->empty())
       fault(item("pictures", i) + ".pixels", "the image is empty");
+    if (picture.film) check_film(picture, item("pictures", i) + ".film");
   }
+}
+
+void Validator::check_film(const Picture& picture, const std::string& place) {
+  const FilmTiming& film = *picture.film;
+  if (picture.file.empty()) fault(place, "is set, but the picture is no file");
+  const auto check = [&](const char* name, double value, double most) {
+    if (!(value > 0 && value <= most))
+      fault(place + name, fmt::format("expected a number greater than 0, at most {:g}, got {}", most, value));
+  };
+  check(".frames_per_second", film.frames_per_second, kMaxFramesPerSecond);
+  check(".rate", film.rate, kMaxFilmRate);
+  if (!(std::abs(film.start) <= kMaxSceneTime))
+    fault(place + ".start", fmt::format("expected a number from {:g} to {:g}, got {}", -kMaxSceneTime,
+                                        kMaxSceneTime, film.start));
+  check_enumerator(place + ".at_end", film.at_end, AtEnd::ping_pong);
 }
 
 void Validator::check_texture(const Texture& texture, const std::string& place) {
   check_reference(place + ".picture", texture.picture, scene_.pictures.size(), "pictures");
+  const auto picture = static_cast<std::size_t>(texture.picture);
+  if (texture.is_set() && picture < scene_.pictures.size() && scene_.pictures[picture].film)
+    fault(place + ".picture", "is a film; only a light's slide can be one");
   check_enumerator(place + ".sampler.wrap_u", texture.sampler.wrap_u, Wrap::clamp);
   check_enumerator(place + ".sampler.wrap_v", texture.sampler.wrap_v, Wrap::clamp);
   check_enumerator(place + ".sampler.magnify", texture.sampler.magnify, Filter::linear);

@@ -1,0 +1,122 @@
+#include "frame_range.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "laterna/film.h"
+#include "scene_options.h"
+
+namespace laterna::app {
+namespace {
+
+constexpr std::int64_t kMostFrames = 1'000'000;
+
+template <class Number>
+std::optional<Number> parse(std::string_view text) {
+  Number value{};
+  const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (wrong != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+struct Range {
+  std::int64_t first, last;
+};
+
+Result<Range> parse_range(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const std::string_view all = text;
+  const auto first = parse<std::int64_t>(all.substr(0, colon));
+  const auto last = colon == std::string::npos ? first : parse<std::int64_t>(all.substr(colon + 1));
+  if (!first || !last || *first < 0 || *last < *first) {
+    return tl::unexpected(bad_option(fmt::format(
+        "--frames: expected FIRST:LAST, whole numbers from 0 on such as 0:23, got \"{}\"", text)));
+  }
+  if (*last - *first >= kMostFrames)
+    return tl::unexpected(bad_option(fmt::format("--frames: at most {} pictures at a time", kMostFrames)));
+  return Range{*first, *last};
+}
+
+/// Frames per second, numerator / denominator: rates of television are fractions, such as 30000/1001.
+struct FrameRate {
+  double numerator, denominator;
+};
+
+Result<FrameRate> parse_rate(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  const std::string_view all = text;
+  const auto numerator = parse<double>(all.substr(0, slash));
+  const auto denominator = slash == std::string::npos ? 1.0 : parse<double>(all.substr(slash + 1));
+  if (numerator && denominator && *numerator > 0 && *denominator > 0 &&
+      *numerator / *denominator <= kMaxFramesPerSecond && std::isfinite(*denominator)) {
+    return FrameRate{*numerator, *denominator};
+  }
+  return tl::unexpected(bad_option(fmt::format(
+      "--fps: expected frames per second greater than 0, such as 25 or 30000/1001, got \"{}\"", text)));
+}
+
+/// The file with a number in place of the run of # in its name.
+struct NumberedName {
+  std::string before, after;
+  std::size_t digits;
+  [[nodiscard]] std::string with(std::int64_t number) const {
+    return fmt::format("{}{:0{}}{}", before, number, digits, after);
+  }
+};
+
+Result<NumberedName> parse_name(const std::string& output) {
+  const std::size_t begin = output.find('#');
+  if (begin == std::string::npos) {
+    return tl::unexpected(bad_option(fmt::format(
+        "--frames: the output needs # where the frame's number goes, such as out.####.png, got \"{}\"",
+        output)));
+  }
+  const std::size_t found = output.find_first_not_of('#', begin);
+  const std::size_t end = found == std::string::npos ? output.size() : found;
+  if (output.find('#', end) != std::string::npos || output.find('/', begin) != std::string::npos) {
+    return tl::unexpected(bad_option(
+        fmt::format("--frames: expected one run of # in the name of the output file, got \"{}\"", output)));
+  }
+  return NumberedName{output.substr(0, begin), output.substr(end), end - begin};
+}
+
+}  // namespace
+
+void TimeOptions::declare(CLI::App& command) {
+  CLI::Option* one = command.add_option("--time", time, "scene time in seconds, for slides that are films")
+                         ->capture_default_str();
+  command
+      .add_option(
+          "--frames", frames,
+          "FIRST:LAST, both included: a picture for each; -o needs # where the number goes: out.####.png")
+      ->excludes(one);
+  command.add_option("--fps", fps, "of --frames: frame k is at k/fps seconds; 30000/1001 is understood")
+      ->needs("--frames")
+      ->capture_default_str();
+}
+
+Result<std::vector<TimedOutput>> TimeOptions::outputs(const std::string& output) const {
+  if (!is_series()) return std::vector<TimedOutput>{{time, output}};
+  const Result<Range> range = parse_range(frames);
+  if (!range) return tl::unexpected(range.error());
+  const Result<FrameRate> rate = parse_rate(fps);
+  if (!rate) return tl::unexpected(rate.error());
+  const Result<NumberedName> name = parse_name(output);
+  if (!name) return tl::unexpected(name.error());
+  std::vector<TimedOutput> outputs;
+  for (std::int64_t k = range->first; k <= range->last; ++k) {
+    const double seconds = static_cast<double>(k) * rate->denominator / rate->numerator;
+    if (!(seconds <= kMaxSceneTime)) {
+      return tl::unexpected(bad_option(fmt::format(
+          "--frames: frame {} would be at {:g} s; scenes last at most {:g} s", k, seconds, kMaxSceneTime)));
+    }
+    outputs.push_back({seconds, name->with(k)});
+  }
+  return outputs;
+}
+
+}  // namespace laterna::app

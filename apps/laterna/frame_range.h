@@ -1,0 +1,30 @@
+// Options for pictures at several times: --time, --frames, --fps.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "laterna/result.h"
+
+namespace laterna::app {
+
+/// Pictures to draw: when, and into which file.
+struct TimedOutput {
+  double seconds = 0;
+  std::string file;
+};
+
+struct TimeOptions {
+  double time = 0;
+  std::string frames, fps = "24";
+
+  void declare(CLI::App& command);
+  [[nodiscard]] bool is_series() const { return !frames.empty(); }
+  /// One picture, or one for each frame of the range with its number in place of the # of `output`. Frame k is at k / fps,
+  /// to the nearest double. Error: what was typed is no range, or the file's name has no place for a number.
+  [[nodiscard]] Result<std::vector<TimedOutput>> outputs(const std::string& output) const;
+};
+
+}  // namespace laterna::app

@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Holds `laterna render --time` and `--frames` to what they promise: numbered pictures, each the still of its time.
+
+    frames_command_test.py LATERNA SCENES
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+LATERNA, SCENES = sys.argv[1], Path(sys.argv[2])
+
+RIG = {
+    "cameras": [{"name": "main", "position": [-1.5, 1.6, 4.6], "target": [0, 0.9, -0.6], "yfov_deg": 34}],
+    "lights": [{"name": "cinema", "type": "projector", "position": [1.1, 1.45, 4.3], "target": [0, 1.1, -1.2],
+                "yfov_deg": 26, "candela": 190, "film": "f.##.ppm", "fps": 10, "at_end": "ping_pong",
+                "shadow": {"resolution": 256}}],
+}
+
+
+class Frames(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.at = Path(self.folder.name)
+        for k in range(5):
+            pixels = bytes(value for i in range(5) for value in ((255, 255, 255) if i == k else (20, 40 * k, 60)))
+            (self.at / f"f.{k + 7:02}.ppm").write_bytes(b"P6 5 1 255\n" + pixels)
+        (self.at / "rig.json").write_text(json.dumps(RIG), encoding="utf-8")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def render(self, *arguments):
+        return subprocess.run(
+            [LATERNA, "render", str(SCENES / "stage.glb"), "--rig", str(self.at / "rig.json"), "--size", "64x48",
+             *arguments], capture_output=True, text=True, check=False)
+
+    def names(self, ending):
+        return sorted(p.name for p in self.at.iterdir() if p.name.endswith(ending))
+
+    def test_each_frame_is_the_still_of_its_time(self):
+        done = self.render("--frames", "8:12", "--fps", "10", "-o", str(self.at / "out.###.exr"), "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.names(".exr"), [f"out.{k:03}.exr" for k in range(8, 13)])
+        pictures = json.loads(done.stdout)
+        self.assertEqual([p["time_s"] for p in pictures], [k / 10 for k in range(8, 13)])
+        # Slides 8 to 12 of 0 1 2 3 4 3 2 1 0 1 2 3 4 3 …: each another one, and the shadow map is drawn once.
+        self.assertEqual([p["films_changed"] for p in pictures], [0, 1, 1, 1, 1])
+        self.assertEqual([p["maps_drawn"] for p in pictures], [1, 0, 0, 0, 0])
+        seen = set()
+        for k in range(8, 13):
+            still = self.at / "still.exr"
+            self.assertEqual(self.render("--time", str(k / 10), "-o", str(still)).returncode, 0)
+            picture = (self.at / f"out.{k:03}.exr").read_bytes()
+            self.assertEqual(picture, still.read_bytes(), k)
+            seen.add(picture)
+        self.assertEqual(len(seen), 5)
+
+    def test_rates_are_fractions(self):
+        done = self.render("--frames", "1001:1001", "--fps", "30000/1001", "-o", str(self.at / "x#.png"), "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)[0]["time_s"], 1001 * 1001 / 30000)
+        self.assertEqual(self.names(".png"), ["x1001.png"])
+
+    def test_what_makes_no_sense_is_refused(self):
+        out = str(self.at / "out.##.png")
+        for arguments, message in [
+            (["--frames", "0:3", "-o", str(self.at / "out.png")], "the output needs # where the frame's number goes"),
+            (["--frames", "0:3", "-o", str(self.at / "a#b#.png")], "expected one run of # in the name of the output"),
+            (["--frames", "3:0", "-o", out], "--frames: expected FIRST:LAST"),
+            (["--frames", "-1:2", "-o", out], "--frames: expected FIRST:LAST"),
+            (["--frames", "0:x", "-o", out], "--frames: expected FIRST:LAST"),
+            (["--frames", "0:9999999", "-o", out], "at most 1000000 pictures"),
+            (["--frames", "0:3", "--fps", "0", "-o", out], "--fps: expected frames per second greater than 0"),
+            (["--frames", "0:3", "--fps", "25/0", "-o", out], "--fps: expected frames per second greater than 0"),
+            (["--frames", "0:3", "--fps", "nan", "-o", out], "--fps: expected frames per second greater than 0"),
+            (["--frames", "0:3", "--fps", "1e-7", "-o", out], "would be at 1e+07 s"),
+            (["--frames", "0:3", "--time", "1", "-o", out], "excludes"),
+            (["--fps", "25", "-o", out], "requires --frames"),
+            (["--time", "2e6", "-o", out], "a time must be from -1000000 to 1000000 seconds"),
+            (["--frames", "0:3", "--layer-pictures", str(self.at), "-o", out], "--layer-pictures"),
+        ]:
+            with self.subTest(arguments=arguments):
+                done = self.render(*arguments)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(message, done.stderr)
+        self.assertEqual(self.names(".png"), [])
+
+    def test_a_film_that_is_not_there(self):
+        (self.at / "f.09.ppm").unlink()
+        done = self.render("-o", str(self.at / "out.png"))
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("f.##.ppm: number 9 is missing: there are 7 to 11", done.stderr)
+
+    def test_doctor_tells_of_video(self):
+        done = subprocess.run([LATERNA, "doctor", "--json"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        video = json.loads(done.stdout)["video"]
+        self.assertIn("libavcodec" if video["available"] else "install", video["detail"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
