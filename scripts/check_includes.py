@@ -41,6 +41,7 @@ PUBLIC_HEADERS = {
     "shading.h": "shade",
     "shadows.h": "scene",
     "stages.h": "base",
+    "technique_choice.h": "scene",
     "view.h": "base",
 }
 

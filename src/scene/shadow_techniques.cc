@@ -1,4 +1,4 @@
-#include "laterna/scene.h"
+#include "laterna/technique_choice.h"
 
 namespace laterna {
 namespace {
@@ -34,11 +34,16 @@ std::string find_fault(ShadowTechnique technique, const Light& light) {
     return "\"pcss\" cannot serve a parallel projector with a size: all its light goes one way";
   }
   if (technique == ShadowTechnique::cascades && light.type != LightType::directional)
-    return "cascades serve directional lights only: give the sun \"technique\": \"cascades\" in a rig";
+    return "cascades serve directional lights only";
   for (const TechniqueDescription& known : kTechniques) {
     if (known.technique == technique) return "";
   }
   return "there is no such shadow technique";
+}
+
+ShadowTechnique technique_for(const Light& light, ShadowTechnique of_picture) {
+  if (light.shadow.technique) return *light.shadow.technique;
+  return find_fault(of_picture, light).empty() ? of_picture : ShadowTechnique::map;
 }
 
 std::string find_fault(ShadowDepth depth, const Light& light) {
