@@ -45,14 +45,18 @@ void draw_planes(Sitting& sitting) {
   Shot shot = solids_set();
   add_object(shot.scene, "wall", rectangle({0, 1.5F, -1.3F}, {1, 0, 0}, {0, 1, 0}, {8, 3}, 1),
              add_material(shot.scene, "whitewash", glm::vec3(0.8F)));
-  add_sun(shot.scene, "sun", {{-2.2, 2.3, 3.4}, {0, 0, 0}}, {0.95F, 0.90F, 0.80F});
+  const int boards =
+      add_material(shot.scene, "ramp", glm::vec3(1), add_picture(shot.scene, "ramp", paint_boards(256)));
+  add_object(shot.scene, "ramp",
+             rectangle({0.55F, 0.3F, 0.45F}, {0.8F, 0.6F, 0}, {0, 0, -1}, {1.0F, 1.1F}, 1), boards);
+  add_sun(shot.scene, "sun", {{-3.0, 2.4, 2.4}, {0, 0, 0}}, {0.95F, 0.90F, 0.80F});
   sitting.picture("The floor alone, which is found without being named.", shot.with(ShadowTechnique::ground));
   const ShadowPlane floor{{0, 1, 0}, 0};
   const ShadowPlane wall{{0, 0, 1}, -1.3};
-  const ShadowPlane plinth{{0, 1, 0}, 0.5};
-  shot.scene.lights.front().shadow.planes = {floor, wall, plinth};
-  sitting.picture("Floor, wall and the top of the plinth: one matrix for each.",
-                  shot.with(ShadowTechnique::ground));
+  const ShadowPlane ramp{{-0.6, 0.8, 0}, -0.09};
+  shot.scene.lights.front().shadow.planes = {floor, wall, ramp};
+  sitting.picture("Floor, wall and ramp: one matrix for each.", shot.with(ShadowTechnique::ground));
+  sitting.picture("Traced rays.", shot.with(ShadowTechnique::raytraced));
 }
 
 /// A mast that is higher than the lamp beside it.
@@ -61,7 +65,7 @@ Shot mast_and_lamp() {
   const int paint = add_material(shot.scene, "paint", {0.62F, 0.24F, 0.12F});
   add_object(shot.scene, "mast", box({-0.75F, 0, -0.65F}, {-0.69F, 1.5F, -0.59F}), paint);
   add_object(shot.scene, "yard", box({-1.15F, 1.1F, -0.645F}, {-0.29F, 1.14F, -0.595F}), paint);
-  Light& lamp = add_lamp(shot.scene, "lamp", {{-0.45, 0.8, 0.35}, {-0.4, 0, -0.4}}, Angle::degrees(89),
+  Light& lamp = add_lamp(shot.scene, "lamp", {{-0.45, 0.8, 0.35}, {-0.45, 0, 0.35}}, Angle::degrees(89),
                          {0.95F, 0.90F, 0.80F});
   lamp.inner_cone = Angle::degrees(88);
   shot.camera = {{0.9, 2.1, 3.4}, {-0.2, 0.35, -0.2}};
@@ -162,12 +166,12 @@ constexpr Figure kFigures[] = {
      "Only the plane is shadowed: see the figures after it.",
      "laterna render scene.glb --rig lights.json --shadows ground -o ground.png", draw_ground},
     {"ground-planes", "Several grounds", "Bentley, \"z = 0 plane\", for any plane and several at once",
-     "The matrix takes any plane, so a wall and a table are grounds too, if they are named. Shadows end "
+     "The matrix takes any plane, so a wall and a ramp are grounds too, if they are named. Shadows end "
      "where their "
      "receiver ends.",
-     "What stands behind a receiver is not hidden by it: the plinth's top has caught the ball's shadow, and "
-     "wall or floor "
-     "behind it get it once more.",
+     "What stands behind a receiver is not hidden by it: floor and wall are dark also where ramp or plinth "
+     "have caught the "
+     "light before.",
      "\"shadow\": {\"technique\": \"ground\", \"planes\": [{\"normal\": [0, 1, 0], \"distance\": 0}, "
      "{\"normal\": [0, 0, 1], \"distance\": -1.3}]}",
      draw_planes},

@@ -140,7 +140,10 @@ void draw_bleeding(Sitting& sitting) {
     shadow.moments = moments;
     shadow.bleeding_reduction = reduction;
     const double most = most_bleeding(sitting.visibility(shot, "sun"), truth);
-    sitting.picture(fmt::format("{}: up to {:.1f} % of the light bleeds through.", what, 100 * most), shot);
+    sitting.picture(most > 0
+                        ? fmt::format("{}: up to {:.2g} % of the light bleeds through.", what, 100 * most)
+                        : fmt::format("{}: nothing bleeds through.", what),
+                    shot);
   };
   show("Depth and its square, no reduction", ShadowMoments::variance, 0);
   show("The same, reduction 0.3", ShadowMoments::variance, 0.3F);

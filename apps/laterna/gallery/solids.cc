@@ -211,7 +211,8 @@ Primitive pipe(const std::vector<PipePoint>& points, int segments) {
   line.insert(line.begin(), glm::vec4(glm::vec3(line.front()), 0));
   line.emplace_back(glm::vec3(line.back()), 0);
   const glm::vec3 along = glm::normalize(points[1].centre - points[0].centre);
-  return round_line(line, false, segments, std::abs(along.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0));
+  return round_line(line, false, segments,
+                    std::abs(along.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0));
 }
 
 Primitive ring(glm::vec3 centre, glm::vec3 axis, float radius, float tube, int segments) {

@@ -55,21 +55,28 @@ Shot board_over_block() {
 }
 
 struct WrongPixel {
+  int width = 0, height = 0;  // of the picture
   int x = 0, y = 0;
   float averaged = 0, closer = 0;  // what arrives
 };
 
-// In shadow, and in shadow by percentage-closer filtering: where averaged depths err most.
-WrongPixel find_wrong_pixel(const Visibility& averaged, const Visibility& closer, const Visibility& truth) {
+// In the board's shadow, and so by percentage-closer filtering: where averaged depths err most.
+WrongPixel find_wrong_pixel(Sitting& sitting, const Shot& averaged, const Shot& closer, const Shot& rays) {
+  Shot boardless = rays;
+  for (Node& node : boardless.scene.nodes) node.casts_shadow = node.name != "board";
+  const Visibility truth = sitting.visibility(rays, "sun");
+  const Visibility without = sitting.visibility(boardless, "sun");
+  const Visibility by_averages = sitting.visibility(averaged, "sun");
+  const Visibility by_closer = sitting.visibility(closer, "sun");
   WrongPixel worst;
-  for (int y = 0; y < truth.height; ++y) {
-    for (int x = 0; x < truth.width; ++x) {
-      const auto i =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(truth.width) + static_cast<std::size_t>(x);
-      if (truth.values[i] > 0 || closer.values[i] >= 0.5F) continue;
-      if (averaged.values[i] - closer.values[i] > worst.averaged - worst.closer)
-        worst = {x, y, averaged.values[i], closer.values[i]};
-    }
+  worst.width = truth.width;
+  worst.height = truth.height;
+  for (std::size_t i = 0; i < truth.values.size(); ++i) {
+    if (truth.values[i] > 0 || without.values[i] == 0 || by_closer.values[i] >= 0.5F) continue;
+    if (by_averages.values[i] - by_closer.values[i] <= worst.averaged - worst.closer) continue;
+    const auto place = static_cast<int>(i);
+    worst = {truth.width,         truth.height,          place % truth.width,
+             place / truth.width, by_averages.values[i], by_closer.values[i]};
   }
   return worst;
 }
@@ -79,22 +86,24 @@ void draw_averages(Sitting& sitting) {
   averaged.scene.lights.front().shadow.filter = ShadowFilter::averaged_depths;
   Shot closer = board_over_block();
   closer.scene.lights.front().shadow.filter = ShadowFilter::percentage_closer;
+  sitting.picture("Traced rays: a board over a block.", closer.with(ShadowTechnique::raytraced));
+  for (Shot* shot : {&averaged, &closer}) {
+    for (Node& node : shot->scene.nodes) node.visible = node.name != "board";
+  }
   const Shot rays = closer.with(ShadowTechnique::raytraced);
-  const Visibility truth = sitting.visibility(rays, "sun");
-  const WrongPixel wrong =
-      find_wrong_pixel(sitting.visibility(averaged, "sun"), sitting.visibility(closer, "sun"), truth);
+  const WrongPixel wrong = find_wrong_pixel(sitting, averaged, closer, rays);
   constexpr double kPart = 0.15;
   const auto begin = [](int pixel, int side) {
     return std::clamp((pixel + 0.5) / std::max(side, 1) - kPart / 2, 0.0, 1 - kPart);
   };
-  const Detail part = {begin(wrong.x, truth.width), begin(wrong.y, truth.height), kPart, kPart, 6};
-  sitting.picture("The whole picture, with averaged depths.", averaged);
-  sitting.detail(
-      fmt::format(
-          "Averaged depths. Pixel ({}, {}), in the middle, is on the block and in the board's shadow, "
-          "and yet gets {:.0f} % of the light.",
-          wrong.x, wrong.y, 100 * static_cast<double>(wrong.averaged)),
-      averaged, part);
+  const Detail part = {begin(wrong.x, wrong.width), begin(wrong.y, wrong.height), kPart, kPart, 6};
+  sitting.picture("Averaged depths. The board still casts its shadow but is not drawn.", averaged);
+  sitting.picture("Percentage-closer filtering, likewise.", closer);
+  sitting.detail(fmt::format("Averaged depths. Pixel ({}, {}), in the middle, is in the board's shadow, and "
+                             "yet gets {:.0f} % of "
+                             "the light.",
+                             wrong.x, wrong.y, 100 * static_cast<double>(wrong.averaged)),
+                 averaged, part);
   sitting.detail(
       fmt::format("Percentage-closer: that pixel gets {:.0f} %.", 100 * static_cast<double>(wrong.closer)),
       closer, part);
