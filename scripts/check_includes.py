@@ -50,6 +50,7 @@ PUBLIC_HEADERS = {
     "shading.h": "shade",
     "shadows.h": "scene",
     "stages.h": "base",
+    "technique_choice.h": "scene",
     "view.h": "base",
 }
 

@@ -1,6 +1,5 @@
 // laterna accuracy: every shadow technique against ray-traced truth.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
 #include <algorithm>
@@ -20,7 +19,7 @@ struct Options {
   SubjectOptions subject;
   std::string techniques = "all", lights, difference, fail;
   int resolution = 0, subpixels = 1, frames = 3;
-  bool json = false;
+  bool json = false, allows_unseen = false;
 };
 
 bool has_lights(const Scene& scene) {
@@ -52,14 +51,15 @@ Json json_of(const AccuracyReport& report) {
 void print_table(const AccuracyReport& report) {
   std::size_t width = 5;
   for (const ShadowAccuracy& m : report.measured) width = std::max(width, m.light.size());
-  fmt::print("{:<11} {:<{}} {:>10} {:>10} {:>10} {:>9} {:>8} {:>8} {:>8} {:>8}\n", "", "", width, "false lit",
-             "false dark", "acne", "gap", "edge px", "edge px", "", "");
-  fmt::print("{:<11} {:<{}} {:>10} {:>10} {:>10} {:>9} {:>8} {:>8} {:>8} {:>8}\n", "technique", "light",
-             width, "%", "%", "%", "texels", "median", "99 %", "ms", "MB");
+  fmt::print("{:<11} {:<{}} {:>10} {:>10} {:>10} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "", "", width,
+             "false lit", "false dark", "acne", "gap", "edge px", "edge px", "edge px", "", "");
+  fmt::print("{:<11} {:<{}} {:>10} {:>10} {:>10} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "technique", "light",
+             width, "%", "%", "%", "texels", "median", "mean", "99 %", "ms", "MB");
   for (const ShadowAccuracy& m : report.measured) {
-    fmt::print("{:<11} {:<{}} {:>10.4f} {:>10.4f} {:>10.4f} {:>9.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
-               name_of(m.technique), m.light, width, 100 * m.false_lit, 100 * m.false_dark, 100 * m.acne,
-               m.gap_texels, m.edge_px_median, m.edge_px_p99, m.ms, m.mb);
+    fmt::print(
+        "{:<11} {:<{}} {:>10.4f} {:>10.4f} {:>10.4f} {:>9.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
+        name_of(m.technique), m.light, width, 100 * m.false_lit, 100 * m.false_dark, 100 * m.acne,
+        m.gap_texels, m.edge_px_median, m.edge_px_mean, m.edge_px_p99, m.ms, m.mb);
   }
 }
 
@@ -77,27 +77,43 @@ void print_notes(const AccuracyReport& report) {
 Result<void> write_difference(const AccuracyReport& report, const std::string& file) {
   const Result<LayeredImage> picture = accuracy_picture(report);
   if (!picture) return tl::unexpected(picture.error());
-  if (Result<void> written = write_image(*picture, file); !written) return written;
-  std::vector<std::string> techniques;
-  std::vector<std::string> lights;
+  return write_image(*picture, file);
+}
+
+// A check that has looked at nothing must not pass for one that has found nothing wrong.
+std::vector<std::string> find_unchecked(const AccuracyReport& report, const Options& options) {
+  std::vector<std::string> faults;
+  if (report.measured.empty())
+    faults.emplace_back("nothing could be measured, so nothing is within its limits");
   for (const ShadowAccuracy& m : report.measured) {
-    const std::string technique = name_of(m.technique);
-    if (std::find(techniques.begin(), techniques.end(), technique) == techniques.end())
-      techniques.push_back(technique);
-    if (std::find(lights.begin(), lights.end(), m.light) == lights.end()) lights.push_back(m.light);
+    if (m.pixels > 0 || m.technique != report.measured.front().technique) continue;
+    faults.push_back(
+        fmt::format("light \"{}\" falls on nothing that the picture shows, so its shadows are not checked: "
+                    "look from elsewhere "
+                    "(--camera), leave it out (--lights), or give --allow-unseen",
+                    m.light));
   }
-  fmt::print(stderr, "laterna: note: {}: from left to right {}; from the top {}\n", file,
-             fmt::join(techniques, ", "), fmt::join(lights, ", "));
-  return {};
+  if (options.techniques == "all") return faults;
+  for (const SkippedAccuracy& skipped : report.skipped) {
+    const auto is_same = [&](const auto& other) { return other.technique == skipped.technique; };
+    if (std::ranges::any_of(report.measured, is_same)) continue;
+    if (&skipped != &*std::ranges::find_if(report.skipped, is_same)) continue;
+    faults.push_back(fmt::format("technique \"{}\" could be measured with no light: {}",
+                                 name_of(skipped.technique), skipped.reason));
+  }
+  return faults;
 }
 
 // Without shadows nothing can be right: `none` is held to limits only where it was asked for by name.
-int check_limits(const AccuracyReport& report, const std::vector<AccuracyLimit>& limits, bool is_none_meant) {
+int check_limits(const AccuracyReport& report, const std::vector<AccuracyLimit>& limits,
+                 const Options& options) {
+  const bool is_none_meant = options.techniques != "all";
   int code = kOk;
-  if (report.measured.empty() && !limits.empty()) {
-    fmt::print(stderr,
-               "laterna: error: --fail: nothing could be measured, so nothing is within its limits\n");
-    return kComparisonFailed;
+  if (!limits.empty() && !options.allows_unseen) {
+    for (const std::string& fault : find_unchecked(report, options)) {
+      fmt::print(stderr, "laterna: error: --fail: {}\n", fault);
+      code = kComparisonFailed;
+    }
   }
   for (const ShadowAccuracy& measured : report.measured) {
     if (measured.technique == ShadowTechnique::none && !is_none_meant) continue;
@@ -165,7 +181,7 @@ int run_accuracy(const Options& options) {
     if (Result<void> written = write_difference(*measured, options.difference); !written)
       return report(written.error());
   }
-  return check_limits(*measured, *limits, options.techniques != "all");
+  return check_limits(*measured, *limits, options);
 }
 
 constexpr const char* kFooter =
@@ -177,11 +193,17 @@ constexpr const char* kFooter =
     "  edge px  from each edge of shadow, or of true shadow, to the nearest of the other, in pixels, 32 at "
     "most\n"
     "  ms, MB   what the shadows of this light alone cost in a frame, maps drawn anew\n"
-    "The difference picture has a row for each light and a column for each technique: the scene in grey, "
-    "true\n"
-    "shadows darker, what does not count darkest; false light yellow, false shadow blue, acne red.\n"
+    "The difference picture has a block for each light, in it a picture for each technique under its name: "
+    "the\n"
+    "scene in grey, true shadows darker, what does not count darkest; false light yellow, false shadow "
+    "blue,\n"
+    "acne red.\n"
     "--fail takes conditions on the measures of --json; the exit code is 1 where one of them is met, by any\n"
-    "technique but none, unless that is asked for by name.\n"
+    "technique but none, unless that is asked for by name. It is 1 too where a light falls on nothing that "
+    "the\n"
+    "picture shows, or a technique asked for by name serves no light: nothing was checked. --allow-unseen "
+    "lets\n"
+    "that pass.\n"
     "\nExamples:\n"
     "  laterna accuracy scene.glb --lights auto --techniques all --difference wrong.png\n"
     "  laterna accuracy scene.glb --rig stage.json --techniques map --fail \"false_lit>0.01,acne>0\"\n";
@@ -206,6 +228,9 @@ void declare_accuracy(CLI::App& app, Run& run) {
   command->add_option("--frames", options->frames, "frames of which ms is the median")->capture_default_str();
   command->add_option("--difference", options->difference, "picture of what is wrong and where");
   command->add_option("--fail", options->fail, "conditions that must not be met, such as \"acne>0\"");
+  command->add_flag("--allow-unseen", options->allows_unseen,
+                    "--fail lets pass what cannot be measured: a light that no pixel sees, a technique that "
+                    "serves no light");
   options->subject.scene.declare_machine(*command);
   command->add_flag("--json", options->json, "as JSON");
   command->footer(kFooter);

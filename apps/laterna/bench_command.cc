@@ -11,6 +11,7 @@
 #include "subject.h"
 #include "technique_names.h"
 #include "technique_report.h"
+#include "unserved_lights.h"
 
 namespace laterna::app {
 namespace {
@@ -140,6 +141,7 @@ int run_bench(const Options& options) {
   for (const TechniqueDescription& t : list_techniques()) {
     if (t.name == options.shadows) subject->settings.shadows = t.technique;
   }
+  tell_unserved_lights(subject->renderer.scene(), subject->settings.shadows);
   const Result<FrameCosts> costs = draw_series(*subject, options.series, options.picture);
   if (!costs) return report(costs.error());
   const Result<std::optional<CullingComparison>> culling = compare_culling(*subject, options.series, *costs);

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "laterna/technique_choice.h"
 #include "outcome.h"
 #include "progress_line.h"
 #include "scene_options.h"
@@ -57,7 +58,7 @@ Result<ExplainedPicture> draw_for_light(const Renderer& renderer, const View& ca
 // Whether the picture's settings give a light what is to be shown.
 Result<bool> applies(const Renderer& renderer, const View& camera, const RenderSettings& settings,
                      DebugKind kind, const Light& light) {
-  const ShadowTechnique technique = light.shadow.technique.value_or(settings.shadows);
+  const ShadowTechnique technique = technique_for(light, settings.shadows);
   if (kind == DebugKind::project_depth) return true;
   if (kind == DebugKind::cascades) return technique == ShadowTechnique::cascades;
   if (kind == DebugKind::pairs) return technique == ShadowTechnique::silhouette;
@@ -71,7 +72,7 @@ const char* describe_lack(DebugKind kind) {
   switch (kind) {
     case DebugKind::cascades:
       return "--debug cascades: no light has cascades: give a directional light \"technique\": \"cascades\" "
-             "in a rig";
+             "in a rig, or all with --shadows cascades";
     case DebugKind::texel_density:
       return "--debug texel-density: no light has its shadows by shadow maps";
     case DebugKind::pairs:

@@ -29,6 +29,8 @@ Json matrix_json(const glm::dmat4& m) {
   return rows;
 }
 
+Json plane_json(const glm::dvec4& plane) { return {plane.x, plane.y, plane.z, plane.w}; }
+
 Json report_json(const PointReport& p) {
   Json slide;  // null: no projector, or the lens throws nothing there
   if (p.slide) slide = {p.slide->x, p.slide->y};
@@ -44,7 +46,12 @@ Json report_json(const PointReport& p) {
           {"is_inside", p.is_inside},
           {"clip_from_world", matrix_json(p.clip_from_world)},
           {"light_from_world", matrix_json(p.light_from_world)},
-          {"texture_from_world", matrix_json(p.texture_from_world)}};
+          {"texture_from_world", matrix_json(p.texture_from_world)},
+          {"eye_linear_planes",
+           {{"s", plane_json(p.eye_linear.s)},
+            {"t", plane_json(p.eye_linear.t)},
+            {"r", plane_json(p.eye_linear.r)},
+            {"q", plane_json(p.eye_linear.q)}}}};
 }
 
 void print_report(const PointReport& p) {
@@ -122,7 +129,8 @@ void declare_inspect(CLI::App& app, Run& run) {
       ->needs(slide)
       ->capture_default_str();
   options->view.declare(*command);
-  command->add_flag("--json", options->json, "as JSON, with the matrices");
+  command->add_flag("--json", options->json,
+                    "as JSON, with the matrices and the planes of eye-linear texture generation");
   command->footer(
       "\nExample:\n  laterna inspect room.glb --rig stage.json --light lantern --point 0,1.2,-3\n");
   command->callback([options, &run] { run = [options] { return run_inspect(*options); }; });

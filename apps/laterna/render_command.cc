@@ -18,11 +18,13 @@
 #include "frame_range.h"
 #include "laterna/light_color.h"
 #include "laterna/measure.h"
+#include "laterna/technique_choice.h"
 #include "layer_pictures.h"
 #include "outcome.h"
 #include "progress_line.h"
 #include "scene_options.h"
 #include "technique_names.h"
+#include "unserved_lights.h"
 
 namespace laterna::app {
 namespace {
@@ -167,7 +169,7 @@ nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double
 /// A lamp with a size and a lens that is open throw soft shadows, but most techniques see their middle alone.
 void advise_softness(const Scene& scene, ShadowTechnique for_all) {
   for (const Light& light : scene.lights) {
-    const ShadowTechnique technique = technique_of(light, for_all);
+    const ShadowTechnique technique = technique_for(light, for_all);
     const bool is_hard = technique != ShadowTechnique::pcss && technique != ShadowTechnique::none;
     const bool is_wide = light.source.has_size() || light.aperture.radius > 0;
     if (!light.enabled || !is_wide || !is_hard) continue;
@@ -225,6 +227,7 @@ class RenderCommand {
     if (!renderer) return report(renderer.error());
     const Result<View> view = options_.view.find(*renderer, {settings->width, settings->height});
     if (!view) return report(view.error());
+    tell_unserved_lights(renderer->scene(), settings->shadows);
     load_ms_ = elapsed(start);
     advise_luminance(*settings, false_color_);
     return draw_all(*renderer, *view, *settings, *exposure, *outputs);
@@ -390,7 +393,9 @@ void declare_picture_options(CLI::App& command, RenderOptions& o) {
       ->check(CLI::IsMember({1, 2, 4, 8, 16}))
       ->capture_default_str();
   command
-      .add_option("--shadows", o.shadows, "technique for lights that name none; --list-techniques tells more")
+      .add_option("--shadows", o.shadows,
+                  "technique for lights that name none; those that it cannot serve keep map, which is said;\n"
+                  "--list-techniques tells more")
       ->check(CLI::IsMember(technique_names()))
       ->capture_default_str();
   command

@@ -8,6 +8,7 @@
 
 #include "progress_line.h"
 #include "technique_names.h"
+#include "unserved_lights.h"
 
 namespace laterna::app {
 namespace {
@@ -39,6 +40,7 @@ Result<TechniqueResult> time_technique(Subject& subject, const FrameSeries& seri
   if (!costs) return tl::unexpected(costs.error());
   TechniqueResult result;
   result.technique = technique;
+  result.by_map = unserved_lights(subject.renderer.scene(), technique);
   result.frame_ms = costs->frame().median;
   const std::vector<RenderStatistics> frames = costs->drawings();
   result.shadow_ms = median_over(frames, shadow_cost_ms);
@@ -50,14 +52,27 @@ Result<TechniqueResult> time_technique(Subject& subject, const FrameSeries& seri
 
 void take_worst(const AccuracyReport& report, TechniqueResult& result) {
   for (const ShadowAccuracy& m : report.measured) {
-    if (m.technique != result.technique) continue;
+    const bool has_map = std::ranges::find(result.by_map, m.light) != result.by_map.end();
+    if (m.technique != (has_map ? ShadowTechnique::map : result.technique)) continue;
     const auto raise = [](double& worst, double value) { worst = std::max(worst, value); };
     raise(result.wrong_share, m.false_lit + m.false_dark);
     raise(result.acne, m.acne);
     raise(result.gap_texels, m.gap_texels);
+    raise(result.edge_px_median, m.edge_px_median);
     raise(result.edge_px_mean, m.edge_px_mean);
     raise(result.edge_px_p99, m.edge_px_p99);
   }
+}
+
+// Why it can serve none of the scene's lights; empty where it can serve one.
+std::string find_fault_of_all(const Scene& scene, ShadowTechnique technique) {
+  std::string fault;
+  for (const Light& light : scene.lights) {
+    if (!light.enabled) continue;
+    fault = find_fault(technique, light);
+    if (fault.empty()) return fault;
+  }
+  return fault;
 }
 
 constexpr double kSmallEdgeError = 0.5;  // pixels
@@ -126,6 +141,10 @@ Result<TechniqueComparison> compare_techniques(const Subject& subject, const Fra
   TechniqueComparison comparison;
   std::vector<ShadowTechnique> served;
   for (const ShadowTechnique technique : techniques) {
+    if (std::string fault = find_fault_of_all(own->renderer.scene(), technique); !fault.empty()) {
+      comparison.skipped.push_back({technique, std::move(fault)});
+      continue;
+    }
     const Result<TechniqueResult> timed = time_technique(*own, series, technique);
     if (timed) {
       comparison.results.push_back(*timed);
@@ -138,6 +157,9 @@ Result<TechniqueComparison> compare_techniques(const Subject& subject, const Fra
   AccuracySettings settings;
   settings.picture = subject.settings;
   settings.techniques = served;
+  // For the lights that have it instead.
+  if (std::ranges::find(served, ShadowTechnique::map) == served.end())
+    settings.techniques.push_back(ShadowTechnique::map);
   settings.frames = 1;
   const Result<AccuracyReport> report =
       measure_accuracy(own->renderer, own->view, settings, progress_line("measuring"));

@@ -15,8 +15,9 @@ struct TechniqueResult {
   double shadow_ms = 0;  ///< of it, all threads together: preparing maps and the like, and asking them
   double map_ms = 0;     ///< of that, drawing shadow maps
   double mb = 0;         ///< of maps and the like
+  std::vector<std::string> by_map;  ///< lights that it cannot serve: they have `map` in its frames
   // Of the light for which it is worst:
-  double wrong_share = 0, acne = 0, gap_texels = 0, edge_px_mean = 0, edge_px_p99 = 0;
+  double wrong_share = 0, acne = 0, gap_texels = 0, edge_px_median = 0, edge_px_mean = 0, edge_px_p99 = 0;
 };
 
 struct TechniqueComparison {
@@ -25,7 +26,7 @@ struct TechniqueComparison {
     ShadowTechnique technique;
     std::string reason;
   };
-  std::vector<Skipped> skipped;  ///< those that cannot serve every light
+  std::vector<Skipped> skipped;  ///< those that can serve no light
   std::string advice;
 };
 /// All lights' own techniques are set aside.

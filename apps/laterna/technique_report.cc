@@ -23,11 +23,13 @@ Json json_of(const TechniqueComparison& comparison, const ProjectionCost& projec
                           {"shadow_ms", r.shadow_ms},
                           {"map_ms", r.map_ms},
                           {"mb", r.mb},
+                          {"edge_px_median", r.edge_px_median},
                           {"edge_px_mean", r.edge_px_mean},
                           {"edge_px_p99", r.edge_px_p99},
                           {"wrong", r.wrong_share},
                           {"acne", r.acne},
-                          {"gap_texels", r.gap_texels}});
+                          {"gap_texels", r.gap_texels},
+                          {"lights_by_map", r.by_map}});
   }
   Json skipped = Json::array();
   for (const auto& s : comparison.skipped)
@@ -41,14 +43,19 @@ Json json_of(const TechniqueComparison& comparison, const ProjectionCost& projec
 }
 
 void print_table(const TechniqueComparison& comparison, const ProjectionCost& projection) {
-  fmt::print("{:<11} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>9} {:>9} {:>7}\n", "", "frame", "shadows", "maps",
-             "", "edge px", "edge px", "wrong", "acne", "gap");
-  fmt::print("{:<11} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>9} {:>9} {:>7}\n", "technique", "ms", "ms", "ms",
-             "MB", "mean", "99 %", "%", "%", "texels");
+  fmt::print("{:<11} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>7}\n", "", "frame", "shadows",
+             "maps", "", "edge px", "edge px", "edge px", "wrong", "acne", "gap");
+  fmt::print("{:<11} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>7}\n", "technique", "ms", "ms",
+             "ms", "MB", "median", "mean", "99 %", "%", "%", "texels");
   for (const TechniqueResult& r : comparison.results) {
-    fmt::print("{:<11} {:>9.2f} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>9.4f} {:>9.4f} {:>7.2f}\n",
-               name_of(r.technique), r.frame_ms, r.shadow_ms, r.map_ms, r.mb, r.edge_px_mean, r.edge_px_p99,
-               100 * r.wrong_share, 100 * r.acne, r.gap_texels);
+    fmt::print(
+        "{:<11} {:>9.2f} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.2f} {:>8.3f} {:>8.2f} {:>9.4f} {:>9.4f} {:>7.2f}\n",
+        name_of(r.technique), r.frame_ms, r.shadow_ms, r.map_ms, r.mb, r.edge_px_median, r.edge_px_mean,
+        r.edge_px_p99, 100 * r.wrong_share, 100 * r.acne, r.gap_texels);
+  }
+  for (const TechniqueResult& r : comparison.results) {
+    for (const std::string& light : r.by_map)
+      fmt::print("{}: light \"{}\" has map instead, whose errors count\n", name_of(r.technique), light);
   }
   for (const auto& s : comparison.skipped) fmt::print("{:<11} skipped: {}\n", name_of(s.technique), s.reason);
   fmt::print(

@@ -75,8 +75,10 @@ Result<AccuracyReport> measure_accuracy(const Renderer& renderer, const View& vi
 double shadow_cost_ms(const RenderStatistics& statistics);
 
 /// The verdicts as a picture: the scene in grey, true shadows darker, what is not counted darkest; false light yellow,
-/// false shadow blue, acne red. One row for each light, one column for each technique, in the report's order; what was
-/// skipped is black. Sheets wider or higher than 8192 pixels are scaled down, and errors stay visible.
+/// false shadow blue, acne red; a legend below tells this. A block for each light under its name, in it a picture for each
+/// technique, at most five side by side, in the report's order, under the technique's name and how much is wrong; what was
+/// skipped is black. Where all pictures together are wider or higher than 8192 pixels they are scaled down, and errors stay
+/// visible.
 /// Error: the report has no verdicts.
 Result<LayeredImage> accuracy_picture(const AccuracyReport& report);
 

@@ -1,6 +1,7 @@
 // How a real lens bends a projector's picture: OpenCV's distortion, in both directions.
 #pragma once
 
+#include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -31,6 +32,8 @@ inline constexpr double kWidestLensField = 1e3;
 /// With r² = x² + y² and f = 1 + k1 r² + k2 r⁴ + k3 r⁶:
 /// x' = x f + 2 p1 x y + p2 (r² + 2 x²),  y' = y f + p1 (r² + 2 y²) + 2 p2 x y  (OpenCV, calib3d, projectPoints).
 glm::dvec2 distorted(const LensDistortion& lens, glm::dvec2 direction);
+/// Its derivative by the direction: symmetric, for `distorted` is the gradient of a potential.
+glm::dmat2 distorted_by(const LensDistortion& lens, glm::dvec2 direction);
 
 /// How far from the axis, as a tangent, `distorted` is one to one: up to there it surely does not fold back on itself.
 /// At most kWidestLensField. Nothing is thrown to directions beyond.

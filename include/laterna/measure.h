@@ -9,6 +9,21 @@
 
 namespace laterna {
 
+/// The planes that glTexGen with GL_EYE_LINEAR and GL_EYE_PLANE would hold for a light and a camera, set while the modelview
+/// matrix is the identity (Segal et al. 1992, section 3: texture coordinates made from a vertex's own position; row 33 of the
+/// papers' list). With x_e the position in the camera's space, (x, y, z, 1), the generated coordinates are
+///
+///     s = S · x_e,   t = T · x_e,   r = R · x_e,   q = Q · x_e
+///
+/// and the look-up is at s/q, t/q, r/q: s and t from the slide's top-left corner, r the shadow map's depth, each in 0…1 within
+/// the light's frustum. They are the rows of image_from_world (light) · world_from_view (camera).
+struct EyeLinearPlanes {
+  glm::dvec4 s{0}, t{0}, r{0}, q{0};
+  /// (s/q, t/q, r/q) of a position in the camera's space, metres. Infinite or NaN where q is 0: beside the lens.
+  [[nodiscard]] glm::dvec3 texture_at(const glm::dvec3& position_es) const;
+};
+EyeLinearPlanes eye_linear_planes(const View& camera, const View& light);
+
 /// A world point in the five coordinate systems of Segal et al. 1992, section 2 and 3.
 struct PointReport {
   glm::dvec3 world{0};
@@ -27,6 +42,7 @@ struct PointReport {
   glm::dmat4 clip_from_world{1.0};     ///< M_c
   glm::dmat4 light_from_world{1.0};    ///< M_l
   glm::dmat4 texture_from_world{1.0};  ///< M_l with scale and bias folded in
+  EyeLinearPlanes eye_linear;          ///< the same, from the camera's space
 };
 /// Error: no light of that name, or one that shines all round.
 Result<PointReport> inspect_point(const Renderer& renderer, const View& camera, int width, int height,

@@ -190,10 +190,6 @@ struct Light {
   ShadowSettings shadow;
 };
 
-/// How a light's shadows are found in a picture that asks for `for_all`. A light's own technique counts; a projector that names
-/// none and has an Aperture gets `pcss` in place of `map`, so that its shadows are as soft as its slide.
-ShadowTechnique technique_of(const Light& light, ShadowTechnique for_all);
-
 /// Whether all its rays run the same way.
 bool is_parallel(const Light& light);
 /// Whether its light is held to the sides, near and far plane of its `projection`: projectors, and directional lights that

@@ -52,16 +52,6 @@ std::vector<double> sign_changes(const Polynomial& p, double low, double high) {
 // f of `distorted`.
 double radial_factor(const LensDistortion& l, double r2) { return 1 + r2 * (l.k1 + r2 * (l.k2 + r2 * l.k3)); }
 
-// d distorted / d direction: symmetric, for `distorted` is the gradient of a potential.
-glm::dmat2 jacobian(const LensDistortion& l, glm::dvec2 p) {
-  const double r2 = glm::dot(p, p);
-  const double f = radial_factor(l, r2), slope = 2 * (l.k1 + r2 * (2 * l.k2 + r2 * 3 * l.k3));
-  const double xx = f + slope * p.x * p.x + 2 * l.p1 * p.y + 6 * l.p2 * p.x;
-  const double yy = f + slope * p.y * p.y + 6 * l.p1 * p.y + 2 * l.p2 * p.x;
-  const double xy = slope * p.x * p.y + 2 * l.p1 * p.x + 2 * l.p2 * p.y;
-  return {xx, xy, xy, yy};
-}
-
 // Newton's method, held within the field, each step halved until it brings `place` nearer. Whether it was reached.
 bool approach(const LensDistortion& lens, double field, glm::dvec2 place, glm::dvec2& direction) {
   constexpr double kExact = 1e-13;
@@ -69,7 +59,7 @@ bool approach(const LensDistortion& lens, double field, glm::dvec2 place, glm::d
   glm::dvec2 missing = place - distorted(lens, direction);
   for (int step = 0; step < kMostSteps; ++step) {
     if (glm::length(missing) <= kExact * (1 + glm::length(place))) return true;
-    const glm::dmat2 slope = jacobian(lens, direction);
+    const glm::dmat2 slope = distorted_by(lens, direction);
     const double determinant = slope[0][0] * slope[1][1] - slope[1][0] * slope[0][1];
     if (!(determinant > 0)) return false;
     glm::dvec2 move = glm::dvec2(slope[1][1] * missing.x - slope[1][0] * missing.y,
@@ -104,6 +94,15 @@ glm::dvec2 distorted(const LensDistortion& l, glm::dvec2 p) {
   const double r2 = glm::dot(p, p), xy = 2 * p.x * p.y;
   return p * radial_factor(l, r2) +
          glm::dvec2(l.p1 * xy + l.p2 * (r2 + 2 * p.x * p.x), l.p1 * (r2 + 2 * p.y * p.y) + l.p2 * xy);
+}
+
+glm::dmat2 distorted_by(const LensDistortion& l, glm::dvec2 p) {
+  const double r2 = glm::dot(p, p);
+  const double f = radial_factor(l, r2), slope = 2 * (l.k1 + r2 * (2 * l.k2 + r2 * 3 * l.k3));
+  const double xx = f + slope * p.x * p.x + 2 * l.p1 * p.y + 6 * l.p2 * p.x;
+  const double yy = f + slope * p.y * p.y + 6 * l.p1 * p.y + 2 * l.p2 * p.x;
+  const double xy = slope * p.x * p.y + 2 * l.p1 * p.x + 2 * l.p2 * p.y;
+  return {xx, xy, xy, yy};
 }
 
 // A map whose Jacobian is symmetric and positive definite all over a disc is one to one there. Without tangential terms

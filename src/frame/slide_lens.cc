@@ -69,4 +69,12 @@ std::optional<glm::dvec2> SlideLens::slide_from_beam(glm::dvec2 image) const {
                     (place.y + frame.top) / (frame.top - frame.bottom));
 }
 
+glm::dmat2 SlideLens::slide_by_beam(glm::dvec2 image) const {
+  const glm::dvec2 in_beam(beam.right - beam.left, beam.top - beam.bottom);
+  const glm::dvec2 direction(beam.left + image.x * in_beam.x, -beam.top + image.y * in_beam.y);
+  const glm::dmat2 by_direction = distorted_by(distortion, direction);
+  const glm::dvec2 in_frame(frame.right - frame.left, frame.top - frame.bottom);
+  return {by_direction[0] * in_beam.x / in_frame, by_direction[1] * in_beam.y / in_frame};
+}
+
 }  // namespace laterna::frame

@@ -1,6 +1,7 @@
 // A projector's lens that distorts: where its slide is thrown, and how much that is.
 #pragma once
 
+#include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
 
@@ -26,6 +27,8 @@ struct SlideLens {
   /// Slide coordinates (s, t), (0, 0) the top-left corner, of a point with image coordinates in the beam. Nothing where
   /// the lens throws nothing, whatever is on the slide or around it.
   [[nodiscard]] std::optional<glm::dvec2> slide_from_beam(glm::dvec2 image) const;
+  /// Its derivative: columns are by image.x and by image.y.
+  [[nodiscard]] glm::dmat2 slide_by_beam(glm::dvec2 image) const;
 };
 
 }  // namespace laterna::frame

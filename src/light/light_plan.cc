@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "laterna/technique_choice.h"
 #include "light/cascades.h"
 #include "light/floor.h"
 #include "light/light_space_perspective.h"
@@ -186,7 +187,7 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
     planned.number = static_cast<std::uint32_t>(plan.lights.size());
     planned.placed = place(placed, plan_settings.sample, plan);
     planned.settings = placed.light->shadow;
-    planned.technique = technique_of(*planned.placed->light, plan_settings.technique);
+    planned.technique = technique_for(*planned.placed->light, plan_settings.technique);
     if (planned.settings.resolution == 0) {
       planned.settings.resolution = default_resolution(planned.technique, placed.light->type);
     }

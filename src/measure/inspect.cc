@@ -20,6 +20,8 @@ Result<PointReport> inspect_point(const Renderer& renderer, const View& camera, 
   report.light_from_world = light_view->clip_from_world();
   report.texture_from_world = light_view->image_from_world();
 
+  report.eye_linear = eye_linear_planes(camera, *light_view);
+
   const glm::dvec4 world(point_ws, 1);
   report.clip = report.clip_from_world * world;
   report.screen = glm::dvec2(report.clip) / report.clip.w;

@@ -11,6 +11,7 @@
 #include "base/elementary.h"
 #include "base/refuse.h"
 #include "laterna/measure.h"
+#include "laterna/technique_choice.h"
 #include "light/cascades.h"
 #include "measure/painted_surfaces.h"
 
@@ -53,12 +54,12 @@ Result<LightMaps> find_maps(const Renderer& renderer, const View& camera, const 
   if (views->empty()) return refuse("light \"" + name + "\": its shadows are found without shadow maps");
   const Scene& scene = renderer.scene();
   const int index = scene.nodes[static_cast<std::size_t>(find_light_node(scene, name))].light;
-  const ShadowSettings& shadow = scene.lights[static_cast<std::size_t>(index)].shadow;
+  const Light& light = scene.lights[static_cast<std::size_t>(index)];
   LightMaps maps;
   maps.views = std::move(*views);
   for (const ShadowMapView& map : maps.views) maps.image_from_world.push_back(map.image_from_world);
-  maps.are_cascades = shadow.technique.value_or(settings.shadows) == ShadowTechnique::cascades;
-  maps.kernel = shadow.kernel;
+  maps.are_cascades = technique_for(light, settings.shadows) == ShadowTechnique::cascades;
+  maps.kernel = light.shadow.kernel;
   return maps;
 }
 

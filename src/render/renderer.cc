@@ -421,8 +421,6 @@ Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const 
                                                         const Progress& progress) const {
   if (Result<void> checked = render::check_settings(settings, from); !checked)
     return tl::unexpected(checked.error());
-  if (Result<void> checked = render::check_technique(settings.shadows, frame); !checked)
-    return tl::unexpected(checked.error());
   Result<render::PictureWriter> writer =
       render::PictureWriter::create(settings, destination.target, frame, set);
   if (!writer) return tl::unexpected(std::move(writer.error()));
@@ -607,8 +605,6 @@ Result<std::vector<ShadowMapView>> Renderer::shadow_map_views(const std::string&
                                                               const RenderSettings& settings) const {
   const Implementation& self = *implementation_;
   if (Result<void> checked = render::check_settings(settings, camera); !checked)
-    return tl::unexpected(checked.error());
-  if (Result<void> checked = render::check_technique(settings.shadows, self.frame); !checked)
     return tl::unexpected(checked.error());
   const Result<light::PlannedLight> planned =
       Implementation::find_light(light::make_light_plan(self.frame, {settings.shadows, {}, &camera}), light);

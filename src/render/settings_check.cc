@@ -81,13 +81,4 @@ Result<void> check_settings(const RenderSettings& settings, const View& view) {
   return {};
 }
 
-Result<void> check_technique(ShadowTechnique technique, const frame::Frame& frame) {
-  for (const frame::PlacedLight& placed : frame.lights) {
-    if (placed.light->shadow.technique) continue;
-    if (const std::string fault = find_fault(technique, *placed.light); !fault.empty())
-      return refuse("light \"" + placed.light->name + "\": " + fault);
-  }
-  return {};
-}
-
 }  // namespace laterna::render

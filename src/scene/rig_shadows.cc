@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/rig_ranges.h"
+#include "scene/unread_shadow_settings.h"
 
 namespace laterna {
 namespace {
@@ -179,6 +180,7 @@ void read_rig_shadow(const JsonDocument& json, JsonObject& object, FaultList& fa
   read_layout(shadow, light);
   read_cascades(shadow, light.shadow);
   read_darkness(shadow, light.shadow);
+  warn_of_unread_settings(shadow, light.shadow);
   shadow.report_unknown_members("a shadow");
 }
 

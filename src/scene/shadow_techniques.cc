@@ -1,4 +1,4 @@
-#include "laterna/scene.h"
+#include "laterna/technique_choice.h"
 
 namespace laterna {
 namespace {
@@ -28,23 +28,24 @@ constexpr TechniqueDescription kTechniques[] = {
 
 std::span<const TechniqueDescription> list_techniques() { return kTechniques; }
 
-ShadowTechnique technique_of(const Light& light, ShadowTechnique for_all) {
-  if (light.shadow.technique) return *light.shadow.technique;
-  const bool is_wide = light.type == LightType::projector && light.aperture.radius > 0;
-  return is_wide && for_all == ShadowTechnique::map ? ShadowTechnique::pcss : for_all;
-}
-
 std::string find_fault(ShadowTechnique technique, const Light& light) {
   if (technique == ShadowTechnique::pcss && light.type == LightType::projector &&
       light.projection.is_orthographic && light.source.has_size()) {
     return "\"pcss\" cannot serve a parallel projector with a size: all its light goes one way";
   }
   if (technique == ShadowTechnique::cascades && light.type != LightType::directional)
-    return "cascades serve directional lights only: give the sun \"technique\": \"cascades\" in a rig";
+    return "cascades serve directional lights only";
   for (const TechniqueDescription& known : kTechniques) {
     if (known.technique == technique) return "";
   }
   return "there is no such shadow technique";
+}
+
+ShadowTechnique technique_for(const Light& light, ShadowTechnique of_picture) {
+  if (light.shadow.technique) return *light.shadow.technique;
+  if (!find_fault(of_picture, light).empty()) of_picture = ShadowTechnique::map;
+  const bool is_wide = light.type == LightType::projector && light.aperture.radius > 0;
+  return is_wide && of_picture == ShadowTechnique::map ? ShadowTechnique::pcss : of_picture;
 }
 
 std::string find_fault(ShadowDepth depth, const Light& light) {

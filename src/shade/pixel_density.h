@@ -27,6 +27,7 @@ class PixelDensity {
   glm::dvec3 position_ws_{0}, forward_ws_{0};
   bool is_parallel_ = false;
   double nearest_ = 0;  // metres along the axis
+  std::optional<frame::SlideLens> lens_;
 };
 
 }  // namespace laterna::shade

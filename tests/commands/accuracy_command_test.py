@@ -81,14 +81,39 @@ class Accuracy(unittest.TestCase):
         done = run("accuracy", *STAGE, *QUICK, "--lights", "sun", "--fail", "edge_px_median>=32")
         self.assertNotIn('"none"', done.stderr)
 
+    def test_a_check_of_what_no_pixel_sees_fails_unless_that_is_allowed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rig = Path(folder) / "away.json"
+            rig.write_text('{"lights": [{"name": "away", "type": "spot", "position": [0, 3, 0], "target": [0, 9, 0]}]}',
+                           encoding="utf-8")
+            away = [str(SCENES / "table.glb"), "--rig", str(rig), "--size", "96x72", "--techniques", "map", *QUICK]
+            fail = ["--fail", "acne>0"]
+            done = run("accuracy", *away, *fail)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn('laterna: error: --fail: light "away" falls on nothing that the picture shows, so its shadows are '
+                          'not checked', done.stderr)
+            self.assertEqual(run("accuracy", *away, *fail, "--allow-unseen").returncode, 0)
+            self.assertEqual(run("accuracy", *away).returncode, 0, "without limits it is a note")
+
+    def test_a_technique_asked_for_that_serves_no_light_fails_the_check(self):
+        lantern = [*STAGE, *QUICK, "--lights", "magic lantern", "--techniques", "map,cascades", "--fail", "acne>0"]
+        done = run("accuracy", *lantern)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('--fail: technique "cascades" could be measured with no light: cascades serve directional lights '
+                      'only', done.stderr)
+        self.assertEqual(run("accuracy", *lantern, "--allow-unseen").returncode, 0)
+        with_sun = [*STAGE, *QUICK, "--techniques", "map,cascades", "--fail", "acne>0"]
+        self.assertEqual(run("accuracy", *with_sun).returncode, 0, "it serves the sun")
+
     def test_the_difference_picture_is_written(self):
         with tempfile.TemporaryDirectory() as folder:
             picture = Path(folder) / "wrong.png"
             done = run("accuracy", *STAGE, *QUICK, "--techniques", "none,map", "--difference", str(picture))
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertIn("from left to right none, map; from the top sun, magic lantern", done.stderr)
             header = picture.read_bytes()[16:24]
-            self.assertEqual((int.from_bytes(header[:4], "big"), int.from_bytes(header[4:], "big")), (192, 144))
+            width, height = int.from_bytes(header[:4], "big"), int.from_bytes(header[4:], "big")
+            self.assertTrue(2 * 96 < width < 2 * 96 + 20, width)
+            self.assertGreater(height, 2 * 72 + 4 * 7, "names and a legend beside the pictures")
 
     def test_bad_arguments_are_refused_with_a_message(self):
         measures = ("false_lit, false_dark, acne, gap_texels, edge_px_median, edge_px_p99, ms, mb, edge_px_mean, "
@@ -135,6 +160,18 @@ class Bench(unittest.TestCase):
         self.assertIn("raytraced", report["advice"])
         self.assertNotIn("none", report["advice"])
 
+    def test_errors_are_those_of_accuracy(self):
+        done = run("bench", *STAGE, *QUICK, "--warm-up", "0", "--techniques", "none,silhouette,cascades", "--json")
+        measured = json.loads(run("accuracy", *STAGE, *QUICK, "--techniques", "none,silhouette,map,cascades", "--json").stdout)
+        for entry in json.loads(done.stdout)["techniques"]:
+            stand_ins = entry["lights_by_map"]
+            self.assertEqual(stand_ins, ["magic lantern"] if entry["technique"] == "cascades" else [])
+            same = [m for m in measured
+                    if m["technique"] == ("map" if m["light"] in stand_ins else entry["technique"])]
+            self.assertEqual(len(same), 2)
+            for measure in ("edge_px_median", "edge_px_mean", "edge_px_p99", "acne", "gap_texels"):
+                self.assertEqual(entry[measure], max(m[measure] for m in same), (entry["technique"], measure))
+
     def test_silhouettes_are_counted_with_and_without_culling(self):
         """Row 47."""
         done = run("bench", *STAGE, *QUICK, "--warm-up", "0", "--shadows", "silhouette", "--json")
@@ -174,6 +211,17 @@ class Bench(unittest.TestCase):
             done = run("bench", *STAGE, "--techniques", "all", *other)
             self.assertEqual(done.returncode, 2)
             self.assertIn("--techniques excludes --cached, --pose and --png", done.stderr)
+
+
+class PictureTechnique(unittest.TestCase):
+    def test_lights_that_it_cannot_serve_keep_map_and_that_is_said(self):
+        note = 'laterna: note: light "magic lantern" keeps shadow technique "map": cascades serve directional lights only\n'
+        for command, more in (("render", ["-o", str(Path(FOLDER.name) / "cascades.png")]),
+                              ("bench", [*QUICK, "--warm-up", "0"])):
+            done = run(command, *STAGE, "--shadows", "cascades", *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(note, done.stderr)
+            self.assertNotIn("keeps", run(command, *STAGE, "--shadows", "exact", *more).stderr)
 
 
 class DebugPairs(unittest.TestCase):

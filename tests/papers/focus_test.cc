@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "laterna/instruction_set.h"
+#include "laterna/technique_choice.h"
 #include "light/light_samples.h"
 #include "reference/picture_probes.h"
 #include "reference/projector_scenes.h"
@@ -232,8 +233,8 @@ TEST(Focus, ShadowsOfAWideLensAreSoft) {
   Light light = projector("projector", 0.5, 0.5);
   light.aperture = {kRadius, 6};  // the wall is in focus
   add_light(scene, light, {0, 0, 6}, {0, 0, 0});
-  EXPECT_EQ(technique_of(scene.lights[0], ShadowTechnique::map), ShadowTechnique::pcss);
-  EXPECT_EQ(technique_of(scene.lights[0], ShadowTechnique::exact), ShadowTechnique::exact);
+  EXPECT_EQ(technique_for(scene.lights[0], ShadowTechnique::map), ShadowTechnique::pcss);
+  EXPECT_EQ(technique_for(scene.lights[0], ShadowTechnique::exact), ShadowTechnique::exact);
   const LayeredImage truth = picture_of(scene, 0.3, 128, nullptr, ShadowTechnique::exact);
   const LayeredImage fast = picture_of(scene, 0.3, 1, nullptr, ShadowTechnique::map);
   EXPECT_LT(rms_difference(fast, truth), 0.02);

@@ -41,6 +41,43 @@ void draw_ground(Sitting& sitting) {
                   local.with(ShadowTechnique::ground));
 }
 
+void draw_planes(Sitting& sitting) {
+  Shot shot = solids_set();
+  add_object(shot.scene, "wall", rectangle({0, 1.5F, -1.3F}, {1, 0, 0}, {0, 1, 0}, {8, 3}, 1),
+             add_material(shot.scene, "whitewash", glm::vec3(0.8F)));
+  const int boards =
+      add_material(shot.scene, "ramp", glm::vec3(1), add_picture(shot.scene, "ramp", paint_boards(256)));
+  add_object(shot.scene, "ramp",
+             rectangle({0.55F, 0.3F, 0.45F}, {0.8F, 0.6F, 0}, {0, 0, -1}, {1.0F, 1.1F}, 1), boards);
+  add_sun(shot.scene, "sun", {{-3.0, 2.4, 2.4}, {0, 0, 0}}, {0.95F, 0.90F, 0.80F});
+  sitting.picture("The floor alone, which is found without being named.", shot.with(ShadowTechnique::ground));
+  const ShadowPlane floor{{0, 1, 0}, 0};
+  const ShadowPlane wall{{0, 0, 1}, -1.3};
+  const ShadowPlane ramp{{-0.6, 0.8, 0}, -0.09};
+  shot.scene.lights.front().shadow.planes = {floor, wall, ramp};
+  sitting.picture("Floor, wall and ramp: one matrix for each.", shot.with(ShadowTechnique::ground));
+  sitting.picture("Traced rays.", shot.with(ShadowTechnique::raytraced));
+}
+
+/// A mast that is higher than the lamp beside it.
+Shot mast_and_lamp() {
+  Shot shot = teapot_set();
+  const int paint = add_material(shot.scene, "paint", {0.62F, 0.24F, 0.12F});
+  add_object(shot.scene, "mast", box({-0.75F, 0, -0.65F}, {-0.69F, 1.5F, -0.59F}), paint);
+  add_object(shot.scene, "yard", box({-1.15F, 1.1F, -0.645F}, {-0.29F, 1.14F, -0.595F}), paint);
+  Light& lamp = add_lamp(shot.scene, "lamp", {{-0.45, 0.8, 0.35}, {-0.45, 0, 0.35}}, Angle::degrees(89),
+                         {0.95F, 0.90F, 0.80F});
+  lamp.inner_cone = Angle::degrees(88);
+  shot.camera = {{0.9, 2.1, 3.4}, {-0.2, 0.35, -0.2}};
+  return shot;
+}
+
+void draw_above_the_lamp(Sitting& sitting) {
+  const Shot shot = mast_and_lamp();
+  sitting.picture("The ground transformation: no ghost.", shot.with(ShadowTechnique::ground));
+  sitting.picture("Traced rays.", shot.with(ShadowTechnique::raytraced));
+}
+
 void draw_anything(Sitting& sitting) {
   Shot shot = solids_set();
   add_morning_sun(shot.scene);
@@ -126,8 +163,25 @@ constexpr Figure kFigures[] = {
      "One matrix per light carries every triangle to the plane. Where two shadows meet, each light is "
      "missing once: the "
      "overlap is darker, and no pixel is darkened twice by one light.",
-     "Only the plane is shadowed: see the next figure.",
+     "Only the plane is shadowed: see the figures after it.",
      "laterna render scene.glb --rig lights.json --shadows ground -o ground.png", draw_ground},
+    {"ground-planes", "Several grounds", "Bentley, \"z = 0 plane\", for any plane and several at once",
+     "The matrix takes any plane, so a wall and a ramp are grounds too, if they are named. Shadows end "
+     "where their "
+     "receiver ends.",
+     "What stands behind a receiver is not hidden by it: floor and wall are dark also where ramp or plinth "
+     "have caught the "
+     "light before.",
+     "\"shadow\": {\"technique\": \"ground\", \"planes\": [{\"normal\": [0, 1, 0], \"distance\": 0}, "
+     "{\"normal\": [0, 0, 1], \"distance\": -1.3}]}",
+     draw_planes},
+    {"above-the-lamp", "Corners above a local light", "Bentley, case 2: a local light",
+     "The mast's top and its yard are higher than the lamp: the matrix alone would throw them, mirrored, on "
+     "the floor on "
+     "the other side of the lamp. Laterna keeps the sign of the fourth coordinate, and such corners throw "
+     "nothing.",
+     "Only the floor is shadowed: of what the teapot and the mast throw on themselves, the rays show more.",
+     "laterna render scene.glb --rig lamp.json --shadows ground -o ground.png", draw_above_the_lamp},
     {"not-only-the-ground", "The z-buffer algorithm shadows not only the ground",
      "Bentley, \"The Z-buffer algorithm produces shadows not only on z = 0 plane\"",
      "The same scene and sun both ways. On the floor the two agree.",

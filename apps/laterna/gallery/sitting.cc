@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "laterna/accuracy.h"
 #include "laterna/measure.h"
 
 namespace laterna::app {
@@ -45,18 +46,17 @@ Result<LayeredImage> multiplied(LayeredImage image, const LayeredImage& factor, 
   return image;
 }
 
-/// Of the pixels that are lit in one of the two, how many differ by more than half.
-double share_that_differs(const LayeredImage& a, const LayeredImage& b) {
-  std::size_t counted = 0;
-  std::size_t differing = 0;
-  for (const Channel& channel : a.channels) {
-    const Channel* other = channel.name.starts_with("visibility.") ? b.find(channel.name) : nullptr;
-    if (other == nullptr) continue;
-    counted += channel.values.size();
-    for (std::size_t i = 0; i < channel.values.size(); ++i)
-      differing += std::abs(channel.values[i] - other->values[i]) > 0.5F ? 1U : 0U;
+std::string sentence_about(const TechniqueDescription& technique, const AccuracyReport& report) {
+  const std::string begin = fmt::format("{}: {}.", technique.name, technique.meaning);
+  for (const ShadowAccuracy& m : report.measured) {
+    if (m.technique != technique.technique) continue;
+    return fmt::format(
+        "{} False light {:.3g} % of the pixels that the light may reach, false shadow {:.3g} %, acne {:.3g} "
+        "%, edges {:.2f} "
+        "pixels off on average. Its shadows take {:.1f} ms and {:.1f} MB.",
+        begin, 100 * m.false_lit, 100 * m.false_dark, 100 * m.acne, m.edge_px_mean, m.ms, m.mb);
   }
-  return counted == 0 ? 0 : static_cast<double>(differing) / static_cast<double>(counted);
+  return begin;
 }
 
 }  // namespace
@@ -94,10 +94,10 @@ Result<Sitting::Drawing> Sitting::set_up(const Shot& shot) const {
   return Drawing{std::move(*renderer), View{*pose, projection}, std::move(settings)};
 }
 
-Result<LayeredImage> Sitting::draw(const Shot& shot, RenderStatistics* statistics) const {
+Result<LayeredImage> Sitting::draw(const Shot& shot) const {
   const Result<Drawing> drawing = set_up(shot);
   if (!drawing) return tl::unexpected(drawing.error());
-  return drawing->renderer.render(drawing->view, drawing->settings, {}, statistics);
+  return drawing->renderer.render(drawing->view, drawing->settings);
 }
 
 std::string Sitting::next_file() { return fmt::format("{}-{}.png", id_, panels_.size() + 1); }
@@ -187,26 +187,37 @@ void Sitting::image(std::string caption, const Image& image) {
   panels_.push_back(std::move(panel));
 }
 
-void Sitting::measured(const Shot& shot, const Shot& truth) {
-  std::string name;
-  for (const TechniqueDescription& t : list_techniques()) {
-    if (t.technique == shot.settings.shadows) name = fmt::format("{}: {}", t.name, t.meaning);
+void Sitting::techniques(const Shot& shot) {
+  if (!outcome_) return;
+  const Result<Drawing> drawing = set_up(shot);
+  AccuracySettings settings;
+  if (drawing) settings.picture = drawing->settings;
+  const Result<AccuracyReport> report = drawing ? measure_accuracy(drawing->renderer, drawing->view, settings)
+                                                : tl::unexpected(drawing.error());
+  if (!report) {
+    outcome_ = tl::unexpected(report.error());
+    return;
   }
-  if (!can_draw(name, shot) || !can_draw(name, truth)) return;
+  for (const TechniqueDescription& technique : list_techniques())
+    picture(sentence_about(technique, *report), shot.with(technique.technique));
+}
+
+Visibility Sitting::visibility(const Shot& shot, const std::string& light) {
+  if (!outcome_) return {};
   Shot layered = shot;
+  layered.settings.samples = 1;
   layered.settings.layers = {Layer::visibility};
-  RenderStatistics statistics;
-  Result<LayeredImage> image = draw(layered, &statistics);
-  if (!image) return add(std::move(name), std::move(image));
-  layered.settings.shadows = truth.settings.shadows;
-  const Result<LayeredImage> rays = draw(layered);
-  if (!rays) return add(std::move(name), rays);
-  std::size_t bytes = 0;
-  for (const RenderStatistics::LightMemory& memory : statistics.shadow_memory) bytes += memory.bytes;
-  std::string caption = fmt::format(
-      "{}. Picture and shadows {:.0f} ms, {:.1f} MB; other than rays in {:.3f} % of its pixels.", name,
-      statistics.total_ms, static_cast<double>(bytes) / (1 << 20), 100 * share_that_differs(*image, *rays));
-  add(std::move(caption), std::move(image));
+  Result<LayeredImage> image = draw(layered);
+  if (!image) {
+    outcome_ = tl::unexpected(image.error());
+    return {};
+  }
+  for (Channel& channel : image->channels) {
+    if (channel.name == "visibility." + light)
+      return {image->width, image->height, std::move(channel.values)};
+  }
+  outcome_ = tl::unexpected(Error(Failure::bad_input, Diagnostic{{}, {}, "there is no light " + light}));
+  return {};
 }
 
 }  // namespace laterna::app

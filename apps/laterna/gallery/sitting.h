@@ -31,6 +31,12 @@ struct Detail {
   int magnification = 4;
 };
 
+/// What of a light arrives in each pixel, 0 to 1; rows from the top.
+struct Visibility {
+  int width = 0, height = 0;
+  std::vector<float> values;
+};
+
 /// How pictures are made.
 struct Darkroom {
   std::filesystem::path folder;
@@ -56,8 +62,10 @@ class Sitting {
   void failures(std::string caption, const Shot& shot, const std::string& light);
   /// A slide or texture as it is.
   void image(std::string caption, const Image& image);
-  /// The picture, and below it what the shadows cost and in how much of it they differ from traced rays.
-  void measured(const Shot& shot, const Shot& truth);
+  /// A picture with each technique, and below it what `laterna accuracy` says of it.
+  void techniques(const Shot& shot);
+  /// How much of a light arrives in each pixel, one sample each; empty after an error.
+  Visibility visibility(const Shot& shot, const std::string& light);
 
   [[nodiscard]] const std::vector<Panel>& panels() const { return panels_; }
   [[nodiscard]] const Result<void>& outcome() const { return outcome_; }
@@ -65,7 +73,7 @@ class Sitting {
  private:
   struct Drawing;
   [[nodiscard]] Result<Drawing> set_up(const Shot& shot) const;
-  [[nodiscard]] Result<LayeredImage> draw(const Shot& shot, RenderStatistics* statistics = nullptr) const;
+  [[nodiscard]] Result<LayeredImage> draw(const Shot& shot) const;
   /// Writes it as the figure's next picture.
   void add(std::string caption, Result<LayeredImage> image, int magnification = 1);
   /// Whether the picture can be drawn; otherwise the figure says why not.

@@ -77,12 +77,11 @@ void add_turned_stretch(Primitive& p, glm::vec3 foot, const std::vector<glm::vec
 }
 
 /// Circles about each point of a line, joined. The first and the last are where the line ends; a closed line ends
-/// where it begins.
-Primitive round_line(const std::vector<glm::vec4>& line, bool is_closed, int segments) {
+/// where it begins. `side`: where the texture begins around the line, as far as it is square to it.
+Primitive round_line(const std::vector<glm::vec4>& line, bool is_closed, int segments, glm::vec3 side) {
   Primitive p;
   const std::size_t last = line.size() - 1;
   const auto centre = [&](std::size_t i) { return glm::vec3(line[i]); };
-  glm::vec3 side(0);
   float length = 0;
   for (std::size_t i = 0; i <= last; ++i) {
     // The two first points of a line that is not closed, and the two last, are at the same place: its lids.
@@ -93,7 +92,6 @@ Primitive round_line(const std::vector<glm::vec4>& line, bool is_closed, int seg
                             : is_closed ? centre(1)
                                         : centre(i);
     const glm::vec3 along = glm::normalize(after - before);
-    if (i == 0) side = std::abs(along.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     if (i > 0) length += glm::length(centre(i) - centre(i - 1));
     side = glm::normalize(side - along * glm::dot(side, along));
     const glm::vec3 other = glm::cross(along, side);
@@ -212,7 +210,9 @@ Primitive pipe(const std::vector<PipePoint>& points, int segments) {
   // A lid at each end: a circle without size.
   line.insert(line.begin(), glm::vec4(glm::vec3(line.front()), 0));
   line.emplace_back(glm::vec3(line.back()), 0);
-  return round_line(line, false, segments);
+  const glm::vec3 along = glm::normalize(points[1].centre - points[0].centre);
+  return round_line(line, false, segments,
+                    std::abs(along.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0));
 }
 
 Primitive ring(glm::vec3 centre, glm::vec3 axis, float radius, float tube, int segments) {
@@ -226,7 +226,8 @@ Primitive ring(glm::vec3 centre, glm::vec3 axis, float radius, float tube, int s
     line.emplace_back(
         centre + radius * (side * static_cast<float>(turn.x) + other * static_cast<float>(turn.y)), tube);
   }
-  return round_line(line, true, segments / 2);
+  // What points along the axis stays where it is all around: the texture meets itself.
+  return round_line(line, true, segments / 2, axis);
 }
 
 Primitive terrain(glm::vec3 centre, float size, int side, const std::function<float(float, float)>& height) {

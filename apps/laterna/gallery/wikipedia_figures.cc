@@ -1,4 +1,8 @@
 // Wikipedia, Shadow mapping, as of 2010 (document 003).
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "sets.h"
 
 namespace laterna::app {
@@ -31,6 +35,81 @@ void draw_filters(Sitting& sitting) {
   sitting.detail("The triangles that the texels saw, tested themselves: the default.", shot, part);
 }
 
+/// A board close over a block, the sun high above.
+Shot board_over_block() {
+  Shot shot;
+  Scene& scene = shot.scene;
+  set_mood(scene, 0.2F);
+  add_floor(scene, 4);
+  add_object(scene, "block", box({-0.7F, 0, -0.6F}, {0.7F, 0.9F, 0.6F}),
+             add_material(scene, "plaster", {0.74F, 0.72F, 0.68F}));
+  add_object(scene, "board", box({-1.0F, 1.2F, -0.9F}, {0.35F, 1.24F, 0.4F}),
+             add_material(scene, "clay", {0.62F, 0.24F, 0.12F}));
+  add_sun(scene, "sun", {{-0.9, 3.0, 0.7}, {0, 0, 0}}, {0.95F, 0.90F, 0.80F});
+  ShadowSettings& shadow = scene.lights.front().shadow;
+  shadow.resolution = 128;
+  shadow.kernel = 7;
+  shot.settings.samples = 1;
+  shot.camera = {{1.9, 2.5, 2.9}, {0.05, 0.6, 0}};
+  return shot;
+}
+
+struct WrongPixel {
+  int width = 0, height = 0;  // of the picture
+  int x = 0, y = 0;
+  float averaged = 0, closer = 0;  // what arrives
+};
+
+// In the board's shadow, and so by percentage-closer filtering: where averaged depths err most.
+WrongPixel find_wrong_pixel(Sitting& sitting, const Shot& averaged, const Shot& closer, const Shot& rays) {
+  Shot boardless = rays;
+  for (Node& node : boardless.scene.nodes) node.casts_shadow = node.name != "board";
+  const Visibility truth = sitting.visibility(rays, "sun");
+  const Visibility without = sitting.visibility(boardless, "sun");
+  const Visibility by_averages = sitting.visibility(averaged, "sun");
+  const Visibility by_closer = sitting.visibility(closer, "sun");
+  WrongPixel worst;
+  worst.width = truth.width;
+  worst.height = truth.height;
+  for (std::size_t i = 0; i < truth.values.size(); ++i) {
+    if (truth.values[i] > 0 || without.values[i] == 0 || by_closer.values[i] >= 0.5F) continue;
+    if (by_averages.values[i] - by_closer.values[i] <= worst.averaged - worst.closer) continue;
+    const auto place = static_cast<int>(i);
+    worst = {truth.width,         truth.height,          place % truth.width,
+             place / truth.width, by_averages.values[i], by_closer.values[i]};
+  }
+  return worst;
+}
+
+void draw_averages(Sitting& sitting) {
+  Shot averaged = board_over_block();
+  averaged.scene.lights.front().shadow.filter = ShadowFilter::averaged_depths;
+  Shot closer = board_over_block();
+  closer.scene.lights.front().shadow.filter = ShadowFilter::percentage_closer;
+  sitting.picture("Traced rays: a board over a block.", closer.with(ShadowTechnique::raytraced));
+  for (Shot* shot : {&averaged, &closer}) {
+    for (Node& node : shot->scene.nodes) node.visible = node.name != "board";
+  }
+  const Shot rays = closer.with(ShadowTechnique::raytraced);
+  const WrongPixel wrong = find_wrong_pixel(sitting, averaged, closer, rays);
+  constexpr double kPart = 0.15;
+  const auto begin = [](int pixel, int side) {
+    return std::clamp((pixel + 0.5) / std::max(side, 1) - kPart / 2, 0.0, 1 - kPart);
+  };
+  const Detail part = {begin(wrong.x, wrong.width), begin(wrong.y, wrong.height), kPart, kPart, 6};
+  sitting.picture("Averaged depths. The board still casts its shadow but is not drawn.", averaged);
+  sitting.picture("Percentage-closer filtering, likewise.", closer);
+  sitting.detail(fmt::format("Averaged depths. Pixel ({}, {}), in the middle, is in the board's shadow, and "
+                             "yet gets {:.0f} % of "
+                             "the light.",
+                             wrong.x, wrong.y, 100 * static_cast<double>(wrong.averaged)),
+                 averaged, part);
+  sitting.detail(
+      fmt::format("Percentage-closer: that pixel gets {:.0f} %.", 100 * static_cast<double>(wrong.closer)),
+      closer, part);
+  sitting.detail("Traced rays: it gets nothing.", rays, part);
+}
+
 void draw_darkness(Sitting& sitting) {
   Shot shot = solids_set();
   shot.scene.ambient = glm::vec3(0.05F);
@@ -61,6 +140,15 @@ constexpr Figure kFigures[] = {
      "Weighted comparisons hide the staircase behind a blur that is as wide as a texel, whatever the light's "
      "size.",
      "\"shadow\": {\"resolution\": 256, \"filter\": \"percentage_closer\"}", draw_filters},
+    {"averaged-depths", "Averaging depths is a mistake",
+     "MIT 6.837, lecture 20, on percentage-closer filtering",
+     "The same map of 128 texels, 7 × 7 of them asked. Their mean depth, of board, block and floor, is the "
+     "depth of nothing: "
+     "it may lie behind the block, and what is in shadow turns light. Comparing first and averaging the "
+     "answers does not "
+     "do that.",
+     "Percentage-closer filtering is no more than a blur: as wide close to the caster as far from it.",
+     "\"shadow\": {\"resolution\": 128, \"filter\": \"averaged_depths\", \"kernel\": 7}", draw_averages},
     {"darkness", "How dark a shadow is", "Wikipedia, \"Drawing the scene\"",
      "\"This is usually adjusted to also include a dim diffuse light to keep curved surfaces from appearing "
      "flat in "
