@@ -17,7 +17,7 @@ namespace {
 
 struct Lens {
   Intrinsics intrinsics;
-  LensDistortion distortion;
+  CameraDistortion distortion;
 };
 
 struct Model {

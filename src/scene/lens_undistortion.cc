@@ -17,14 +17,14 @@ constexpr double kWidest = 2;
 constexpr int kRadiusSteps = 4096;
 constexpr double kFarthestRadius = 8;
 
-double radial_factor(const LensDistortion& d, double r2) {
+double radial_factor(const CameraDistortion& d, double r2) {
   const double above = 1 + r2 * (d.k[0] + r2 * (d.k[1] + r2 * d.k[2]));
   const double below = 1 + r2 * (d.k[3] + r2 * (d.k[4] + r2 * d.k[5]));
   return above / below;
 }
 
 // The radius up to which what is farther out is seen farther out.
-double find_largest_radius(const LensDistortion& d, double frame_radius) {
+double find_largest_radius(const CameraDistortion& d, double frame_radius) {
   double before = 0;
   const double most = kFarthestRadius * frame_radius;
   for (int i = 1; i <= kRadiusSteps; ++i) {
@@ -37,7 +37,7 @@ double find_largest_radius(const LensDistortion& d, double frame_radius) {
 }
 
 // Newton's method from the radial part's solution; nothing where it ends nowhere, or beyond the fold.
-std::optional<glm::dvec2> pinhole_point(const LensDistortion& d, const glm::dvec2& seen,
+std::optional<glm::dvec2> pinhole_point(const CameraDistortion& d, const glm::dvec2& seen,
                                         double largest_radius) {
   const double radius = glm::length(seen);
   double low = 0, high = largest_radius;
@@ -131,14 +131,14 @@ class Resampler {
 
 }  // namespace
 
-glm::dvec2 distort(const LensDistortion& d, const glm::dvec2& point) {
+glm::dvec2 distort(const CameraDistortion& d, const glm::dvec2& point) {
   const double x = point.x, y = point.y, r2 = x * x + y * y;
   const double factor = radial_factor(d, r2);
   return {x * factor + 2 * d.p[0] * x * y + d.p[1] * (r2 + 2 * x * x),
           y * factor + d.p[0] * (r2 + 2 * y * y) + 2 * d.p[1] * x * y};
 }
 
-PinholeFrame find_pinhole_frame(const Intrinsics& k, const LensDistortion& distortion, std::string& fault) {
+PinholeFrame find_pinhole_frame(const Intrinsics& k, const CameraDistortion& distortion, std::string& fault) {
   const auto at = [&](double x, double y) { return glm::dvec2((x - k.cx) / k.fx, (y - k.cy) / k.fy); };
   const glm::dvec2 low = at(0, 0), high = at(k.width, k.height);
   const double frame_radius = std::max(glm::length(glm::max(glm::abs(low), glm::abs(high))), 1e-6);
@@ -175,7 +175,7 @@ PinholeFrame find_pinhole_frame(const Intrinsics& k, const LensDistortion& disto
   return frame;
 }
 
-Image undistort(const Image& picture, const Intrinsics& k, const LensDistortion& distortion,
+Image undistort(const Image& picture, const Intrinsics& k, const CameraDistortion& distortion,
                 const PinholeFrame& frame) {
   const int colors = picture.has_alpha() ? picture.channels() - 1 : picture.channels();
   Image pinhole(frame.width, frame.height, colors + 1, picture.type(), picture.transfer());

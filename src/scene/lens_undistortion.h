@@ -19,14 +19,14 @@ struct PinholeFrame {
 
 /// `intrinsics` are of the picture, in its pixels. What is wrong is in `fault`: the distortion cannot be inverted somewhere in
 /// the frame.
-PinholeFrame find_pinhole_frame(const Intrinsics& intrinsics, const LensDistortion& distortion,
+PinholeFrame find_pinhole_frame(const Intrinsics& intrinsics, const CameraDistortion& distortion,
                                 std::string& fault);
 
 /// Bicubic in the stored values (Keys 1981, a = −1/2); what lies outside continues the lens's edge.
-Image undistort(const Image& picture, const Intrinsics& intrinsics, const LensDistortion& distortion,
+Image undistort(const Image& picture, const Intrinsics& intrinsics, const CameraDistortion& distortion,
                 const PinholeFrame& frame);
 
 /// The lens's point of a pinhole's, at unit distance.
-glm::dvec2 distort(const LensDistortion& distortion, const glm::dvec2& point);
+glm::dvec2 distort(const CameraDistortion& distortion, const glm::dvec2& point);
 
 }  // namespace laterna

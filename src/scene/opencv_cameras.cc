@@ -127,7 +127,7 @@ class CameraReader {
   }
 
   // k1 k2 p1 p2 [k3 [k4 k5 k6]], OpenCV's order.
-  void read_distortion(const JsonValue* value, LensDistortion& distortion) {
+  void read_distortion(const JsonValue* value, CameraDistortion& distortion) {
     if (value == nullptr) return;
     const auto d = numbers(*value, {4, 5, 8, 0});
     if (!d || d->empty()) return;

@@ -18,7 +18,7 @@ namespace laterna {
 
 /// OpenCV's lens: x' = x (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶) + 2 p1 x y + p2 (r² + 2 x²), and y' with
 /// p1 (r² + 2 y²) + 2 p2 x y; x, y a pinhole's coordinates at unit distance, y downward, and x', y' the lens's.
-struct LensDistortion {
+struct CameraDistortion {
   std::array<double, 6> k{};
   std::array<double, 2> p{};
 
@@ -40,7 +40,7 @@ struct PhotographCamera {
   std::string file;
   Pose pose;
   Intrinsics intrinsics;
-  LensDistortion distortion;
+  CameraDistortion distortion;
   /// In place of the intrinsics; its width follows the photograph's where `aspect_from_picture` is set.
   std::optional<Projection> projection;
   bool aspect_from_picture = false;
