@@ -9,8 +9,8 @@
 // A frustum: one of "yfov_deg", "hfov_deg" (with "aspect"), "intrinsics": {"fx", "fy", "cx", "cy", "width",
 // "height"}, "orthographic": {"height"}; "aspect" (width / height), "near", "far". Lights by "type":
 //   directional  "lux"; "half_width", "half_height", "near", "far": the shadow map's box, otherwise fitted
-//   point        "candela", "range", "attenuation"
-//   spot         "candela", "range", "attenuation", "inner_cone_deg", "outer_cone_deg" (half angles)
+//   point        "candela" or "lumens", "range", "attenuation"; "ies" with "scale" or "lumens", "target", "up"
+//   spot         the same; "inner_cone_deg", "outer_cone_deg" (half angles)
 //   projector    "candela" or "lumens", "slide" or "intensity_map", a frustum, "profile", "outside", "range",
 //                "attenuation", "black_level", "pixels"
 // All: "color" or "color_temperature", "filter", "gel".

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "frame/lamp_table.h"
 #include "shade/illumination.h"
 
 namespace laterna::reference {
