@@ -49,6 +49,15 @@ T* require(T* pointer) {
   return pointer;
 }
 
+// What a file claims may be no value of the enumeration.
+template <class Enumeration>
+int code_of(const Enumeration& claimed) {
+  static_assert(sizeof(Enumeration) == sizeof(int));
+  int code = 0;
+  std::memcpy(&code, &claimed, sizeof(code));
+  return code;
+}
+
 struct Free {
   void operator()(AVFormatContext* p) const { avformat_close_input(&p); }
   void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
@@ -318,16 +327,18 @@ class Film {
 
   static Fault not_shown(const std::string& what) { return Fault("its " + what + " cannot be shown"); }
 
-  static std::string name_of_matrix(AVColorSpace matrix) {
-    const char* const name = av_color_space_name(matrix);
-    return name != nullptr ? name : std::to_string(static_cast<int>(matrix));
+  static std::string name_of_matrix(int code) {
+    const bool is_known = code >= 0 && code < AVCOL_SPC_NB;
+    const char* const name = is_known ? av_color_space_name(static_cast<AVColorSpace>(code)) : nullptr;
+    return name != nullptr ? name : std::to_string(code);
   }
 
   static LaternaVideoMatrix matrix(const AVFrame& frame, const AVPixFmtDescriptor& description) {
-    if (frame.color_trc == AVCOL_TRC_SMPTE2084 || frame.color_trc == AVCOL_TRC_ARIB_STD_B67)
+    const int curve = code_of(frame.color_trc);
+    if (curve == AVCOL_TRC_SMPTE2084 || curve == AVCOL_TRC_ARIB_STD_B67)
       throw not_shown(std::string("high dynamic range (") + av_color_transfer_name(frame.color_trc) + ")");
     if ((description.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) != 0) return kVideoRgb;
-    switch (frame.colorspace) {
+    switch (code_of(frame.colorspace)) {
       case AVCOL_SPC_BT709:
         return kVideoBt709;
       case AVCOL_SPC_FCC:
@@ -342,13 +353,14 @@ class Film {
       case AVCOL_SPC_RGB:
         return frame.height >= 720 || frame.width >= 1280 ? kVideoBt709 : kVideoBt601;
       default:
-        throw not_shown("colour matrix " + name_of_matrix(frame.colorspace));
+        throw not_shown("colour matrix " + name_of_matrix(code_of(frame.colorspace)));
     }
   }
 
   static bool is_full_range(const AVFrame& frame, const AVPixFmtDescriptor& description) {
     if (std::strncmp(description.name, "yuvj", 4) == 0) return true;
-    if (frame.color_range != AVCOL_RANGE_UNSPECIFIED) return frame.color_range == AVCOL_RANGE_JPEG;
+    const int range = code_of(frame.color_range);
+    if (range != AVCOL_RANGE_UNSPECIFIED) return range == AVCOL_RANGE_JPEG;
     const bool is_grey = description.nb_components < 3;
     return is_grey || (description.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) != 0;
   }

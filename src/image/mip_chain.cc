@@ -24,6 +24,17 @@ const std::array<float, 256>& code_fractions() {
   return table;
 }
 
+// As linear_from_srgb() of Image::value(). Frames of deep films would spend most of their time in powers.
+const std::vector<float>& linear_from_16_bits() {
+  static const std::vector<float> table = [] {
+    std::vector<float> values(65536);
+    for (std::size_t code = 0; code < values.size(); ++code)
+      values[code] = static_cast<float>(linear_from_srgb(static_cast<float>(code) / 65535.0F));
+    return values;
+  }();
+  return table;
+}
+
 std::uint32_t quantised_root(float value, float largest) {
   return static_cast<std::uint32_t>(std::sqrt(value) * largest + 0.5F);
 }
@@ -110,8 +121,24 @@ class RowReader {
     }
   }
 
+  // A table pays where it is shorter than the picture.
+  [[nodiscard]] bool reads_by_table() const {
+    constexpr std::size_t kTable = 65536;
+    return is_srgb_ && picture_.type() == PixelType::u16 && picture_.bytes().size() >= 2 * kTable;
+  }
+
   void read_values(int y, float* planes) const {
     const bool is_grey = picture_.channels() <= 2;
+    if (reads_by_table()) {
+      const std::vector<float>& linear = linear_from_16_bits();
+      const auto* code = reinterpret_cast<const std::uint16_t*>(row_bytes(picture_, y).data());
+      for (std::size_t x = 0; x < width_; ++x, code += offsets_.step) {
+        planes[x] = linear[code[0]];
+        planes[stride_ + x] = linear[code[offsets_.green]];
+        planes[2 * stride_ + x] = linear[code[offsets_.blue]];
+      }
+      return;
+    }
     for (int c = 0; c < 3; ++c, planes += stride_) {
       for (int x = 0; x < picture_.width(); ++x) {
         const float v = picture_.value(x, y, is_grey ? 0 : c);

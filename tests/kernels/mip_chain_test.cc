@@ -190,5 +190,21 @@ TEST(MipChain, EightBitColourComesBackWithinAFractionOfACode) {
   }
 }
 
+// Large 16-bit pictures are decoded by a table, small ones by the curve itself: the same bits.
+TEST(MipChain, SixteenBitsByTableAndByCurve) {
+  Image large(256, 256, 1, PixelType::u16, Transfer::srgb);
+  for (std::size_t code = 0; code < 65536; ++code)
+    large.values<std::uint16_t>()[code] = static_cast<std::uint16_t>(code);
+  const MipChain by_table = make_mip_chain(large, MipUse::colour);
+  Image row(256, 1, 1, PixelType::u16, Transfer::srgb);
+  for (int y = 0; y < 256; y += 5) {
+    std::copy_n(large.values<std::uint16_t>().begin() + std::ptrdiff_t{256} * y, 256,
+                row.values<std::uint16_t>().begin());
+    const MipChain by_curve = make_mip_chain(row, MipUse::colour);
+    for (int x = 0; x < 256; ++x)
+      ASSERT_EQ(texel(by_table, 0, x, y), texel(by_curve, 0, x, 0)) << x << " " << y;
+  }
+}
+
 }  // namespace
 }  // namespace laterna::image
