@@ -18,14 +18,8 @@ struct Triangle {
   std::array<glm::dvec3, 3> corner_ws;
 };
 
-Triangle triangle_of(const frame::Frame& frame, std::size_t cluster, std::uint32_t triangle) {
-  Triangle t;
-  const std::uint32_t packed = frame.corners[cluster << kTriangleBits | triangle];
-  for (unsigned k = 0; k < 3; ++k) {
-    const std::size_t v = frame.clusters[cluster].first_vertex + (packed >> (8 * k) & 255U);
-    t.corner_ws[k] = glm::dvec3(frame.x_ws[v], frame.y_ws[v], frame.z_ws[v]);
-  }
-  return t;
+Triangle triangle_of(const frame::Frame& frame, TriangleId id) {
+  return {{frame.corner_ws(id, 0), frame.corner_ws(id, 1), frame.corner_ws(id, 2)}};
 }
 
 // Twice the area of (a, b, p), positive where p lies to the left of a → b. Computed from the lesser end, so that two
@@ -116,8 +110,9 @@ Result<std::vector<Probe>> probes_on_object(const frame::Frame& frame, const std
   Lattice lattice(spacing, probes);
   for (std::size_t cluster = 0; cluster < frame.clusters.size(); ++cluster) {
     if (frame.clusters[cluster].object != number) continue;
+    const auto first = static_cast<TriangleId>(cluster << kTriangleBits);
     for (std::uint32_t t = 0; t < frame.clusters[cluster].triangle_count; ++t) {
-      if (lattice.add(triangle_of(frame, cluster, t))) continue;
+      if (lattice.add(triangle_of(frame, first | t))) continue;
       return refuse(
           fmt::format("object \"{}\" is so large that a spacing of {:g} m makes more than {} probes", object,
                       spacing, kMaxProbes));

@@ -97,9 +97,9 @@ TEST(FalseColor, TheScalesEndIsRoundAndTold) {
   EXPECT_EQ(colored(ramp(spot, 8), 0).metadata.at("laterna.scale_maximum"), "3");
 }
 
-// The scale is white paper with black numbers, and its bar has the picture's own colours.
+// The scale is white paper with black numbers, and its bar has the picture's own colours: what is above it, on top.
 TEST(FalseColor, TheScaleStandsBesideThePicture) {
-  const LayeredImage shown = colored(ramp(std::vector<float>(10, 100), 200), 100);
+  const LayeredImage shown = colored(ramp(std::vector<float>(10, 150), 200), 100);
   int black = 0;
   bool has_end = false;
   for (int y = 0; y < shown.height; ++y) {
