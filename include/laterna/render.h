@@ -167,9 +167,8 @@ class Renderer {
 
   /// The depth maps of a light's shadow maps: one, or six for a light that shines all round. Channel "Z": metres along
   /// the map's axis, +infinity where nothing is. `statistics`: what drawing cost, up to the conversion to metres.
-  /// Error: no such light, no such face.
-  [[nodiscard]] Result<int> depth_map_count(const std::string& light) const;
-  [[nodiscard]] Result<View> depth_map_view(const std::string& light, int face = 0) const;
+  /// Error: no such light, no such face. depth_map_views() draws nothing.
+  [[nodiscard]] Result<std::vector<ShadowMapView>> depth_map_views(const std::string& light) const;
   [[nodiscard]] Result<LayeredImage> depth_map(const std::string& light, int face = 0,
                                                RenderStatistics* statistics = nullptr) const;
 

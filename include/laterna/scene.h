@@ -159,6 +159,12 @@ struct Light {
   ShadowSettings shadow;
 };
 
+/// Whether all its rays run the same way.
+bool is_parallel(const Light& light);
+/// Whether its light is held to the sides, near and far plane of its `projection`: projectors, and directional lights that
+/// are not fitted to the scene. What is nearer to it than the near plane casts no shadow.
+bool has_frustum(const Light& light);
+
 /// Why a light of this kind cannot have its shadows found in this way, and what can; empty where it can.
 std::string find_fault(ShadowTechnique technique, const Light& light);
 /// The same of what its depths are compared by.

@@ -71,16 +71,23 @@ enum class SmoothKernel : std::uint8_t {
   binomial,          ///< 1 2 1 across and down: tends to a Gaussian, and the middle counts most
 };
 
+// Limits of the settings below.
+inline constexpr int kMaxShadowResolution = 16384;
+inline constexpr int kLeastKernel = 2, kMostKernel = 9;
+inline constexpr int kMostSmoothing = 64;
+inline constexpr int kMostCascades = 8;
+
 /// One light's shadows. The defaults need no tuning: bias follows from the receiver's plane and the texel's footprint.
 /// A manual bias, constant, by slope or both, takes its place, and `refined` is then read as `bilinear`.
 struct ShadowSettings {
   std::optional<ShadowTechnique> technique;  ///< unset: the picture's
 
   // Shadow maps.
-  /// Texels per side of a map (per cube face); 0: 2048, point lights 1024, silhouettes 512.
+  /// Texels per side of a map (per cube face), to kMaxShadowResolution; 0: 2048, point lights 1024, silhouettes 512.
   int resolution = 0;
   ShadowFilter filter = ShadowFilter::refined;
-  int kernel = 3;  ///< percentage_closer and averaged_depths: kernel × kernel nearest taps, 2…9
+  int kernel =
+      3;  ///< percentage_closer and averaged_depths: kernel × kernel nearest taps, kLeastKernel…kMostKernel
   std::optional<double> constant_bias;  ///< metres toward the light; overrides the automatic bias
   std::optional<double> slope_bias;     ///< texel footprints per unit of depth slope; overrides likewise
   CasterFaces caster_faces = CasterFaces::both;
@@ -101,14 +108,14 @@ struct ShadowSettings {
   std::vector<ShadowPlane> planes;  ///< empty: the scene's floor, its lowest large horizontal one
 
   // Projected silhouettes.
-  int smooth = 0;  ///< passes, 0…64
+  int smooth = 0;  ///< passes, 0…kMostSmoothing
   SmoothKernel smooth_kernel = SmoothKernel::eight_neighbours;
   bool orders_objects = true;   ///< false: objects between a light and a caster are shaded by it too (row 31)
   bool culls_occluders = true;  ///< false: all silhouettes are drawn; the picture is the same (row 47)
 
   // Warped maps and cascades.
   ShadowWarp warp = ShadowWarp::none;  ///< technique map, directional lights that are fitted to the scene
-  int cascades = 4;                    ///< maps, one behind the other along the camera's view, 1…8
+  int cascades = 4;           ///< maps, one behind the other along the camera's view, 1…kMostCascades
   double split_lambda = 0.8;  ///< where they meet: 0 at equal distances, 1 at equal ratios of distances
   double cascade_distance =
       0;  ///< metres from the camera to where the last one ends; 0: as far as there is anything

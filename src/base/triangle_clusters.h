@@ -40,6 +40,14 @@ struct Cluster {
   float high_ws[3] = {};
 };
 
+/// Shadows are cast by opaque surfaces and cut-outs; blended ones tint what comes through (shadow/panes).
+inline bool is_opaque_caster(const Cluster& cluster) {
+  return (cluster.flags & (kCastsShadow | kAlphaBlend)) == kCastsShadow;
+}
+inline bool is_blended_caster(const Cluster& cluster) {
+  return (cluster.flags & (kCastsShadow | kAlphaBlend)) == (kCastsShadow | kAlphaBlend);
+}
+
 /// A view of arrays that a Frame owns.
 struct TriangleClusters {
   const float* x_ws = nullptr;  // positions, one entry per vertex, readable 16 entries beyond the last

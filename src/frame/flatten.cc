@@ -272,9 +272,7 @@ void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
   frame.bounds = bounds_of(frame.clusters);
   frame.has_blending = std::any_of(frame.clusters.begin(), frame.clusters.end(),
                                    [](const Cluster& c) { return (c.flags & kAlphaBlend) != 0; });
-  frame.has_blended_casters = std::any_of(frame.clusters.begin(), frame.clusters.end(), [](const Cluster& c) {
-    return (c.flags & kAlphaBlend) != 0 && (c.flags & kCastsShadow) != 0;
-  });
+  frame.has_blended_casters = std::any_of(frame.clusters.begin(), frame.clusters.end(), is_blended_caster);
   frame.all_receive_shadows = std::all_of(frame.clusters.begin(), frame.clusters.end(),
                                           [](const Cluster& c) { return (c.flags & kReceivesShadow) != 0; });
 }

@@ -80,6 +80,11 @@ class Frame {
     return {x_ws.data(), y_ws.data(), z_ws.data(), corners.data(), clusters};
   }
   [[nodiscard]] std::size_t triangle_count() const;
+  /// Corner 0, 1 or 2 of a triangle.
+  [[nodiscard]] glm::vec3 corner_ws(TriangleId id, unsigned corner) const {
+    const std::size_t v = clusters[cluster_of(id)].first_vertex + (corners[id] >> (8 * corner) & 255U);
+    return {x_ws[v], y_ws[v], z_ws[v]};
+  }
 
   // Vertices, one entry per cluster vertex, readable 16 entries beyond the last.
   AlignedVector<float> x_ws, y_ws, z_ws;

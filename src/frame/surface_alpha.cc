@@ -77,4 +77,10 @@ float alpha_at(const Frame& frame, TriangleId id, float b, float c) {
   return factor * texture_alpha(binding, u, v) * vertex_alpha;
 }
 
+bool is_hole(const Frame& frame, TriangleId id, float b, float c) {
+  const Cluster& cluster = frame.clusters[cluster_of(id)];
+  if ((cluster.flags & kAlphaMask) == 0) return false;
+  return alpha_at(frame, id, b, c) < frame.surfaces[cluster.material].alpha_cutoff;
+}
+
 }  // namespace laterna::frame

@@ -14,11 +14,6 @@ struct Level {
   double height, area;
 };
 
-glm::dvec3 corner(const frame::Frame& frame, const Cluster& cluster, std::uint32_t packed, unsigned k) {
-  const std::size_t vertex = cluster.first_vertex + (packed >> (8 * k) & 255U);
-  return {frame.x_ws[vertex], frame.y_ws[vertex], frame.z_ws[vertex]};
-}
-
 // Those whose front is up, or all that can be seen from above.
 std::vector<Level> horizontal_triangles(const frame::Frame& frame, bool by_either_side) {
   constexpr std::uint32_t kNeeded = kReceivesShadow | kVisible;
@@ -28,10 +23,10 @@ std::vector<Level> horizontal_triangles(const frame::Frame& frame, bool by_eithe
     if ((cluster.flags & kNeeded) != kNeeded) continue;
     const bool has_two_sides = by_either_side && (cluster.flags & kDoubleSided) != 0;
     for (std::uint32_t t = 0; t < cluster.triangle_count; ++t) {
-      const std::uint32_t packed = frame.corners[c * kTrianglesPerCluster + t];
-      const glm::dvec3 p0 = corner(frame, cluster, packed, 0);
+      const auto id = static_cast<TriangleId>(c << kTriangleBits | t);
+      const glm::dvec3 p0(frame.corner_ws(id, 0));
       const glm::dvec3 n =
-          glm::cross(corner(frame, cluster, packed, 1) - p0, corner(frame, cluster, packed, 2) - p0);
+          glm::cross(glm::dvec3(frame.corner_ws(id, 1)) - p0, glm::dvec3(frame.corner_ws(id, 2)) - p0);
       const double up = has_two_sides ? std::abs(n.y) : n.y;
       if (up > 0 && up >= kHorizontal * glm::length(n)) levels.push_back({p0.y, 0.5 * up});
     }

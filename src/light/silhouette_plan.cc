@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "light/homogeneous_light.h"
+#include "light/light_rays.h"
 
 namespace laterna::light {
 namespace {
@@ -31,13 +31,8 @@ struct Box {
   }
 };
 
-// Panes of glass tint what comes through, and have no silhouette.
-bool casts(const Cluster& cluster) {
-  return (cluster.flags & kCastsShadow) != 0 && (cluster.flags & kAlphaBlend) == 0;
-}
-
 bool takes_part(const Cluster& cluster) {
-  return casts(cluster) || (cluster.flags & (kReceivesShadow | kVisible)) != 0;
+  return is_opaque_caster(cluster) || (cluster.flags & (kReceivesShadow | kVisible)) != 0;
 }
 
 double square_to_farthest_vertex(const Frame& frame, const Cluster& cluster, const glm::dvec3& centre) {
@@ -59,7 +54,7 @@ SilhouetteObject describe_object(const Frame& frame, std::uint32_t first, std::u
     const Cluster& cluster = frame.clusters[c];
     if (!takes_part(cluster)) continue;
     whole.include(cluster);
-    if (casts(cluster)) {
+    if (is_opaque_caster(cluster)) {
       object.casts = true;
       casting.include(cluster);
     }
@@ -113,8 +108,7 @@ ShadowView orthographic_view(const PlacedLight& placed, const SilhouetteObject& 
   const double deep = reach(forward) + 1e-3 * largest;
   double near = z - deep;
   // A light with a box of its own begins at its near plane.
-  const bool has_near = placed.light->type != LightType::directional || !placed.light->fit;
-  if (has_near) near = std::max(near, placed.view.projection.near);
+  if (has_frustum(*placed.light)) near = std::max(near, placed.view.projection.near);
   // Of an object wholly before it nothing is drawn.
   const double far = std::max(z + deep, near + deep);
   return {{placed.pose, {true, x - half, x + half, y - half, y + half, near, far}}, side, side};
@@ -159,7 +153,7 @@ std::vector<ShadowView> occluder_views(const PlannedLight& planned, const Silhou
   const PlacedLight& placed = *planned.placed;
   const int side = planned.settings.resolution;
   if (placed.light->type == LightType::directional) return {orthographic_view(placed, object, side, margin)};
-  if (is_parallel(placed) || is_cut_by_near_plane(placed, object)) return own_views;
+  if (is_parallel(*placed.light) || is_cut_by_near_plane(placed, object)) return own_views;
   const double distance = glm::distance(object.sphere.centre, placed.pose.position_ws);
   if (object.sphere.radius >= kWidestSine * distance) return own_views;
   ShadowView about = perspective_view(placed, object, side, margin);

@@ -8,8 +8,6 @@
 namespace laterna::light {
 namespace {
 
-constexpr int kMaxResolution = 16384;
-
 // A sheet seen edge-on still has a width.
 void widen(Range& range, double least) {
   if (range.length() >= least) return;
@@ -55,7 +53,7 @@ ShadowView fit_to_box(const Pose& pose, const LightBox& box, int resolution) {
   const double height = box.y.length();
   const double proportion = std::sqrt(width / height);
   const auto side = [&](double texels) {
-    return std::clamp(static_cast<int>(std::ceil(texels)), 16, kMaxResolution);
+    return std::clamp(static_cast<int>(std::ceil(texels)), 16, kMaxShadowResolution);
   };
   ShadowView shadow;
   shadow.width = side(resolution * proportion);

@@ -6,36 +6,25 @@
 #include <glm/matrix.hpp>
 
 #include "base/elementary.h"
+#include "light/light_rays.h"
 
 namespace laterna::measure {
-namespace {
-
-// Whether a light is held to the sides and planes of its map.
-bool has_frame(const Light& light) {
-  return light.type == LightType::projector || (light.type == LightType::directional && !light.fit);
-}
-
-}  // namespace
 
 Result<LitPixels> LitPixels::find(const Renderer& renderer, const PictureSurface& surface,
                                   const ShadowRays& rays, const std::string& light) {
-  const Result<int> faces = renderer.depth_map_count(light);
-  if (!faces) return tl::unexpected(faces.error());
+  const Result<std::vector<ShadowMapView>> views = renderer.depth_map_views(light);
+  if (!views) return tl::unexpected(views.error());
   LitPixels found(surface, rays, *rays.find(light));
-  for (int face = 0; face < *faces; ++face) {
-    const Result<View> view = renderer.depth_map_view(light, face);
-    if (!view) return tl::unexpected(view.error());
-    const Result<LayeredImage> map = renderer.depth_map(light, face);  // for its size
-    if (!map) return tl::unexpected(map.error());
-    const glm::dmat4 image_from_world = view->image_from_world();
+  for (const ShadowMapView& map : *views) {
     found.maps_.push_back(
-        {*view, image_from_world, glm::inverse(image_from_world), {map->width, map->height}});
+        {map.view, map.image_from_world, glm::inverse(map.image_from_world), {map.width, map.height}});
   }
+  const light::LightRays to_light(*found.light_);
   found.pixels_.resize(surface.object.size());
   for (std::size_t i = 0; i < found.pixels_.size(); ++i) {
     if (surface.object[i] < 0) continue;
     const glm::dvec3 point_ws(surface.position_ws[i]);
-    const double facing = glm::dot(glm::dvec3(surface.normal_ws[i]), direction_to(*found.light_, point_ws));
+    const double facing = glm::dot(glm::dvec3(surface.normal_ws[i]), to_light.toward_at(point_ws));
     LitPixel& pixel = found.pixels_[i];
     // Light along a surface does not fall on it, and rounding gives it either sign.
     constexpr double kAlong = 1e-5;
@@ -70,7 +59,7 @@ LitPixel LitPixels::locate(const glm::dvec3& point_ws) const {
     const glm::dvec3 std = glm::dvec3(q) / q.w;
     const auto in_unit = [](double v) { return v >= 0 && v <= 1; };
     if (!may_leave && !(in_unit(std.x) && in_unit(std.y))) continue;
-    if (has_frame(*light_->light) && !in_unit(std.z)) continue;
+    if (has_frustum(*light_->light) && !in_unit(std.z)) continue;
     LitPixel pixel;
     pixel.face = static_cast<int>(face);
     pixel.texel = glm::vec2(glm::dvec2(std) * map.size);

@@ -15,15 +15,13 @@ struct LightMaps {
 
 Result<LightMaps> draw_maps(const Renderer& renderer, const std::string& light) {
   LightMaps all;
-  const Result<int> faces = renderer.depth_map_count(light);
-  if (!faces) return tl::unexpected(faces.error());
-  for (int face = 0; face < *faces; ++face) {
-    Result<LayeredImage> map = renderer.depth_map(light, face);
-    const Result<View> view = renderer.depth_map_view(light, face);
+  const Result<std::vector<ShadowMapView>> views = renderer.depth_map_views(light);
+  if (!views) return tl::unexpected(views.error());
+  for (std::size_t face = 0; face < views->size(); ++face) {
+    Result<LayeredImage> map = renderer.depth_map(light, static_cast<int>(face));
     if (!map) return tl::unexpected(map.error());
-    if (!view) return tl::unexpected(view.error());
     all.maps.push_back(std::move(*map));
-    all.image_from_world.push_back(view->image_from_world());
+    all.image_from_world.push_back((*views)[face].image_from_world);
   }
   return all;
 }

@@ -33,8 +33,4 @@ class ShadowRays {
   std::unique_ptr<trace::RayScene> rays_;
 };
 
-bool is_parallel(const frame::PlacedLight& light);
-/// Of unit length; zero at the light itself.
-glm::dvec3 direction_to(const frame::PlacedLight& light, const glm::dvec3& point_ws);
-
 }  // namespace laterna::measure

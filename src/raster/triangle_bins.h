@@ -21,6 +21,8 @@ namespace laterna::raster {
 inline constexpr int kTileBits = 6;
 inline constexpr int kTileSide = 1 << kTileBits;
 inline constexpr int kTilePixels = kTileSide * kTileSide;
+/// Tiles that a row of so many pixels begins.
+inline constexpr int tiles_across(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 /// Within a tile, pixels are stored in blocks of 4 × 4: 16 floats, one cache line, one AVX-512 register.
 inline constexpr int kBlockSide = 4;
 inline constexpr int kBlockPixels = kBlockSide * kBlockSide;

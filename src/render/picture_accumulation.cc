@@ -119,8 +119,8 @@ void PictureAccumulation::write(const RenderSettings& settings, const RenderTarg
   RenderTarget color;
   color.color8 = target.color8;
   const Result<PictureWriter> writer = PictureWriter::create(settings, color, frame, set);
-  const int tiles_x = (settings_.width + kTileSide - 1) / kTileSide;
-  const int tiles_y = (settings_.height + kTileSide - 1) / kTileSide;
+  const int tiles_x = raster::tiles_across(settings_.width);
+  const int tiles_y = raster::tiles_across(settings_.height);
   const auto tile = std::make_unique<shade::TileResult>();
   for (int y = 0; y < tiles_y; ++y) {
     for (int x = 0; x < tiles_x; ++x) {

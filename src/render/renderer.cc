@@ -39,8 +39,6 @@ int band_count(const frame::Frame& frame, int tile_rows) {
 // Before so many pictures have been averaged, how they differ says little.
 constexpr int kFewestPictures = 8;
 
-int tiles_across(int pixels) { return (pixels + raster::kTileSide - 1) / raster::kTileSide; }
-
 // Sorted triangles kept from picture to picture, so that their memory is touched only once.
 constexpr std::size_t kIdleBinMemory = std::size_t{256} << 20U;
 
@@ -254,8 +252,8 @@ View Renderer::overview(int width, int height) const {
 void Renderer::Implementation::draw_bands(const raster::RasterView& view, const RenderSettings& settings,
                                           shade::ShaderJob& job, const render::PictureWriter& writer,
                                           RenderStatistics& statistics, ProgressReport& progress) const {
-  const int tiles_x = tiles_across(settings.width);
-  const int tiles_y = tiles_across(settings.height);
+  const int tiles_x = raster::tiles_across(settings.width);
+  const int tiles_y = raster::tiles_across(settings.height);
   const int bands = band_count(frame, tiles_y);
   std::vector<std::unique_ptr<shade::TileShader>> shaders(static_cast<std::size_t>(pool.threads()));
   std::vector<double> encode_ms(shaders.size());
@@ -364,8 +362,8 @@ Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const 
   const bool has_size = std::any_of(frame.lights.begin(), frame.lights.end(),
                                     [](const frame::PlacedLight& l) { return l.light->source.has_size(); });
   const int pictures = has_size ? settings.light_samples : 1;
-  ProgressReport report(progress, static_cast<std::size_t>(tiles_across(settings.width)) *
-                                      static_cast<std::size_t>(tiles_across(settings.height)) *
+  ProgressReport report(progress, static_cast<std::size_t>(raster::tiles_across(settings.width)) *
+                                      static_cast<std::size_t>(raster::tiles_across(settings.height)) *
                                       static_cast<std::size_t>(pictures));
   const RenderStatistics statistics = pictures == 1 ? draw_picture(from, settings, {}, *writer, report)
                                                     : draw_mean(from, settings, target, report);
@@ -473,6 +471,19 @@ Result<light::PlannedLight> Renderer::Implementation::planned_light(const std::s
   return planned;
 }
 
+namespace {
+
+std::vector<ShadowMapView> views_of(const light::PlannedLight& planned) {
+  std::vector<ShadowMapView> views;
+  for (const light::ShadowView& shadow : planned.shadow_views) {
+    views.push_back({shadow.warp ? shadow.warp->light_view : shadow.view, shadow.width, shadow.height,
+                     shadow.image_from_world()});
+  }
+  return views;
+}
+
+}  // namespace
+
 Result<std::vector<ShadowMapView>> Renderer::shadow_map_views(const std::string& light, const View& camera,
                                                               const RenderSettings& settings) const {
   const Implementation& self = *implementation_;
@@ -480,13 +491,7 @@ Result<std::vector<ShadowMapView>> Renderer::shadow_map_views(const std::string&
     return tl::unexpected(checked.error());
   const Result<light::PlannedLight> planned =
       Implementation::find_light(light::make_light_plan(self.frame, {settings.shadows, {}, &camera}), light);
-  if (!planned) return tl::unexpected(planned.error());
-  std::vector<ShadowMapView> views;
-  for (const light::ShadowView& shadow : planned->shadow_views) {
-    views.push_back({shadow.warp ? shadow.warp->light_view : shadow.view, shadow.width, shadow.height,
-                     shadow.image_from_world()});
-  }
-  return views;
+  return planned.map(views_of);
 }
 
 Result<View> Renderer::light_view(const std::string& name) const {
@@ -496,9 +501,8 @@ Result<View> Renderer::light_view(const std::string& name) const {
   return refuse("light \"" + name + "\" shines all round: it has no one view");
 }
 
-Result<int> Renderer::depth_map_count(const std::string& light) const {
-  return implementation_->planned_light(light).map(
-      [](const light::PlannedLight& planned) { return static_cast<int>(planned.shadow_views.size()); });
+Result<std::vector<ShadowMapView>> Renderer::depth_map_views(const std::string& light) const {
+  return implementation_->planned_light(light).map(views_of);
 }
 
 Result<light::PlannedLight> Renderer::Implementation::planned_face(const std::string& name, int face) const {
@@ -512,12 +516,6 @@ Result<light::PlannedLight> Renderer::Implementation::planned_face(const std::st
   }
   planned->shadow_views = {planned->shadow_views[static_cast<std::size_t>(face)]};
   return planned;
-}
-
-Result<View> Renderer::depth_map_view(const std::string& light, int face) const {
-  return implementation_->planned_face(light, face).map([](const light::PlannedLight& planned) {
-    return planned.shadow_views[0].view;
-  });
 }
 
 namespace {

@@ -10,10 +10,6 @@
 namespace laterna {
 namespace {
 
-constexpr std::uint64_t kMaxShadowResolution = 16384;
-constexpr std::uint64_t kMostSmoothing = 64;
-constexpr std::uint64_t kMostCascades = 8;
-
 void read_technique(JsonObject& shadow, Light& light) {
   std::vector<std::pair<std::string_view, ShadowTechnique>> choices;
   for (const TechniqueDescription& t : list_techniques()) choices.emplace_back(t.name, t.technique);
@@ -33,7 +29,7 @@ void read_filter(JsonObject& shadow, ShadowSettings& settings) {
                                            {"percentage_closer", ShadowFilter::percentage_closer},
                                            {"averaged_depths", ShadowFilter::averaged_depths}})
           .value_or(settings.filter);
-  if (const std::optional<std::uint64_t> kernel = shadow.whole("kernel", 2, 9)) {
+  if (const std::optional<std::uint64_t> kernel = shadow.whole("kernel", kLeastKernel, kMostKernel)) {
     settings.kernel = static_cast<int>(*kernel);
     if (settings.filter != ShadowFilter::percentage_closer &&
         settings.filter != ShadowFilter::averaged_depths) {

@@ -47,9 +47,7 @@ ShadowTechnique technique_for(const Light& light, ShadowTechnique of_picture) {
 }
 
 std::string find_fault(ShadowDepth depth, const Light& light) {
-  const bool is_parallel = light.type == LightType::directional ||
-                           (light.type == LightType::projector && light.projection.is_orthographic);
-  if (depth != ShadowDepth::radial || !is_parallel) return "";
+  if (depth != ShadowDepth::radial || !is_parallel(light)) return "";
   return "radial depths are distances from the light, and parallel light comes from nowhere: use \"planar\"";
 }
 
@@ -59,6 +57,15 @@ std::string find_fault(ShadowWarp warp, const Light& light) {
     return "only the map of a directional light that is fitted to the scene can be warped";
   const ShadowTechnique technique = light.shadow.technique.value_or(ShadowTechnique::map);
   return technique == ShadowTechnique::map ? "" : "only the technique \"map\" has a warp";
+}
+
+bool is_parallel(const Light& light) {
+  return light.type == LightType::directional ||
+         (light.type == LightType::projector && light.projection.is_orthographic);
+}
+
+bool has_frustum(const Light& light) {
+  return light.type == LightType::projector || (light.type == LightType::directional && !light.fit);
 }
 
 bool shines_all_round(const Light& light) {

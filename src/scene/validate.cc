@@ -17,11 +17,6 @@
 namespace laterna {
 namespace {
 
-constexpr int kMaxShadowResolution = 16384;
-constexpr int kLeastKernel = 2, kMostKernel = 9;
-constexpr int kMostSmoothing = 64;
-constexpr int kMostCascades = 8;
-
 std::string item(std::string_view list, std::size_t index) { return fmt::format("{}[{}]", list, index); }
 
 template <class Vector>
@@ -308,9 +303,7 @@ void Validator::check_light(const Light& light, const std::string& place) {
   if (light.slide_is_intensity && light.slide < 0) {
     fault(place + ".slide", "is not set, but slide_is_intensity says that it holds the intensities");
   }
-  const bool has_frustum =
-      light.type == LightType::projector || (light.type == LightType::directional && !light.fit);
-  if (std::string message = find_fault(light.projection); has_frustum && !message.empty()) {
+  if (std::string message = find_fault(light.projection); has_frustum(light) && !message.empty()) {
     fault(place + ".projection", std::move(message));
   }
   if (light.type == LightType::directional && !light.fit && !light.projection.is_orthographic) {

@@ -23,12 +23,7 @@ void clear(TileColor& color) {
 /// plane[pixel of sample i] += value(i), for the samples that count.
 template <class Value>
 void add_to(TilePlane& plane, const SurfaceSamples& s, Value value) {
-  for (std::size_t group = 0; group < s.group_count; ++group) {
-    for (unsigned mask = s.active[group]; mask != 0; mask &= mask - 1) {
-      const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
-      plane[s.pixel[i]] += value(i);
-    }
-  }
+  for_each_sample(s, s.active, [&](std::size_t i) { plane[s.pixel[i]] += value(i); });
 }
 
 // The fraction of each channel that arrives, tinted or not.
@@ -83,13 +78,10 @@ void TileLayers::store_geometry(const SurfaceSamples& s, const SurfacePoints& po
   scatter(s, points.normal_x_ws.data(), result_.normal.r.data());
   scatter(s, points.normal_y_ws.data(), result_.normal.g.data());
   scatter(s, points.normal_z_ws.data(), result_.normal.b.data());
-  for (std::size_t group = 0; group < s.group_count; ++group) {
-    for (unsigned mask = s.active[group]; mask != 0; mask &= mask - 1) {
-      const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
-      result_.depth[s.pixel[i]] = static_cast<float>(view_.distance_from_reversed(s.q[i]));
-      result_.object[s.pixel[i]] = frame_.clusters[cluster_of(s.id[i])].object;
-    }
-  }
+  for_each_sample(s, s.active, [&](std::size_t i) {
+    result_.depth[s.pixel[i]] = static_cast<float>(view_.distance_from_reversed(s.q[i]));
+    result_.object[s.pixel[i]] = frame_.clusters[cluster_of(s.id[i])].object;
+  });
 }
 
 void TileLayers::add_visibility(std::size_t light, const SurfaceSamples& s, const Arrival& arrival) {

@@ -54,10 +54,10 @@ constexpr int kDeepestSurvey = 60;
 class CasterTree::Builder {
  public:
   Builder(const frame::Frame& frame, Casters casters, CasterTree& tree) : frame_(frame), tree_(tree) {
-    const std::uint32_t asked = casters == Casters::blended ? kAlphaBlend : 0U;
+    const auto is_asked_for = casters == Casters::blended ? is_blended_caster : is_opaque_caster;
     for (std::uint32_t c = 0; c < frame.clusters.size(); ++c) {
       const Cluster& cluster = frame.clusters[c];
-      if ((cluster.flags & kCastsShadow) == 0 || (cluster.flags & kAlphaBlend) != asked) continue;
+      if (!is_asked_for(cluster)) continue;
       for (std::uint32_t t = 0; t < cluster.triangle_count; ++t) add(c << kTriangleBits | t);
     }
   }
@@ -74,9 +74,8 @@ class CasterTree::Builder {
 
  private:
   [[nodiscard]] std::array<float, 3> corner(TriangleId id, std::uint32_t k) const {
-    const Cluster& cluster = frame_.clusters[cluster_of(id)];
-    const std::size_t v = cluster.first_vertex + (frame_.corners[id] >> (8 * k) & 255U);
-    return {frame_.x_ws[v], frame_.y_ws[v], frame_.z_ws[v]};
+    const glm::vec3 at = frame_.corner_ws(id, k);
+    return {at.x, at.y, at.z};
   }
 
   void add(TriangleId id) {

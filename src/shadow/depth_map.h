@@ -45,8 +45,8 @@ class DepthMap {
   /// memory is taken over.
   DepthMap(const raster::RasterView& view, bool keeps_triangles, DepthMap outworn)
       : view_(view),
-        tiles_x_((view.width + raster::kTileSide - 1) / raster::kTileSide),
-        tiles_y_((view.height + raster::kTileSide - 1) / raster::kTileSide),
+        tiles_x_(raster::tiles_across(view.width)),
+        tiles_y_(raster::tiles_across(view.height)),
         texels_(std::move(outworn.texels_)),
         triangles_(std::move(outworn.triangles_)) {
     const std::size_t count = tile_count() * raster::kTilePixels;

@@ -1,8 +1,9 @@
 #include "shadow/exact_crossing.h"
 
 #include <glm/geometric.hpp>
-#include <limits>
 #include <tuple>
+
+#include "frame/surface_alpha.h"
 
 namespace laterna::shadow {
 namespace {
@@ -24,22 +25,15 @@ bool is_left(double side, const glm::vec3& a, const glm::vec3& b) {
 
 }  // namespace
 
-LightRays::LightRays(const frame::PlacedLight& placed)
-    : position_ws(placed.pose.position_ws), forward_ws(placed.pose.forward_ws()) {
-  const Light& light = *placed.light;
-  is_parallel = light.type == LightType::directional ||
-                (light.type == LightType::projector && placed.view.projection.is_orthographic);
-  if (light.type == LightType::projector || (light.type == LightType::directional && !light.fit)) {
-    has_near = true;
-    near = placed.view.projection.near;
-  }
+CornersOfTriangle corners_of(const frame::Frame& frame, TriangleId id) {
+  return {frame.corner_ws(id, 0), frame.corner_ws(id, 1), frame.corner_ws(id, 2)};
 }
 
 // Segura and Feito 2001, Algorithms to test ray-triangle intersection: signs of volumes.
-Crossing find_crossing(const LightRays& light, const glm::vec3& position_ws, float nearest,
+Crossing find_crossing(const light::LightRays& light, const glm::vec3& position_ws, float nearest,
                        const CornersOfTriangle& t, OnEdge on_edge) {
   const glm::dvec3 p(position_ws);
-  const glm::dvec3 way = light.is_parallel ? light.forward_ws : p - light.position_ws;  // of the light
+  const glm::dvec3 way = light.away_at(p);
   const double of_a = side_of(way, p, t.b, t.c);
   const double of_b = side_of(way, p, t.c, t.a);
   const double of_c = side_of(way, p, t.a, t.b);
@@ -57,17 +51,14 @@ Crossing find_crossing(const LightRays& light, const glm::vec3& position_ws, flo
   if (against == 0) return {};
   const double whole = glm::length(way);
   const double distance = -glm::dot(normal, to_a) / against * whole;
-  double farthest = light.is_parallel ? std::numeric_limits<double>::infinity() : whole;
-  if (light.has_near) {
-    const double along = glm::dot(p - light.position_ws, light.forward_ws);
-    if (light.is_parallel) {
-      farthest = along - light.near;
-    } else {
-      farthest = along > 0 ? whole * (1 - light.near / along) : 0;
-    }
-  }
-  if (distance < nearest || distance > farthest) return {};
+  if (distance < nearest || distance > light.length_at(p)) return {};
   return {true, static_cast<float>(of_b / sum), static_cast<float>(of_c / sum)};
+}
+
+bool darkens(const frame::Frame& frame, const light::LightRays& light, const glm::vec3& position_ws,
+             float nearest, TriangleId id) {
+  const Crossing crossing = find_crossing(light, position_ws, nearest, corners_of(frame, id));
+  return crossing.blocks && !frame::is_hole(frame, id, crossing.b, crossing.c);
 }
 
 }  // namespace laterna::shadow

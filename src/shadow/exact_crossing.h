@@ -5,25 +5,14 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "light/light_plan.h"
+#include "light/light_rays.h"
 
 namespace laterna::shadow {
-
-/// A light as rays toward it see it.
-struct LightRays {
-  explicit LightRays(const frame::PlacedLight& placed);
-
-  bool is_parallel;
-  glm::dvec3 position_ws;  ///< of the light; of a parallel one, any point of its near plane's view
-  glm::dvec3 forward_ws;   ///< unit: its axis; of a parallel light, the direction in which it shines
-  /// Casters nearer than this along the axis do not count; where there is no such plane it does not either.
-  bool has_near = false;
-  double near = 0;
-};
 
 struct CornersOfTriangle {
   glm::vec3 a, b, c;
 };
+CornersOfTriangle corners_of(const frame::Frame& frame, TriangleId id);
 
 struct Crossing {
   bool blocks = false;
@@ -36,7 +25,11 @@ enum class OnEdge : std::uint8_t { of_both, of_one };
 
 /// The sample at `position_ws`, from `nearest` metres toward the light up to the light or its near plane. Of two triangles
 /// that share an edge both see the very same sign of it.
-Crossing find_crossing(const LightRays& light, const glm::vec3& position_ws, float nearest,
+Crossing find_crossing(const light::LightRays& light, const glm::vec3& position_ws, float nearest,
                        const CornersOfTriangle& triangle, OnEdge on_edge = OnEdge::of_both);
+
+/// Whether the triangle casts a shadow on the sample: it is crossed, and not in a hole.
+bool darkens(const frame::Frame& frame, const light::LightRays& light, const glm::vec3& position_ws,
+             float nearest, TriangleId id);
 
 }  // namespace laterna::shadow

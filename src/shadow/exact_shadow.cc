@@ -7,7 +7,7 @@ namespace laterna::shadow {
 ExactShadow::ExactShadow(const light::PlannedLight& planned, const frame::Frame& frame,
                          std::shared_ptr<const CasterTree> tree, InstructionSet set)
     : tree_(std::move(tree)),
-      test_{&frame, tree_.get(), LightRays(*planned.placed), planned.number},
+      test_{&frame, tree_.get(), light::LightRays(*planned.placed), planned.number},
       set_(set) {}
 
 double ExactShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
@@ -25,7 +25,7 @@ double ExactShadow::find_arrival(const SurfaceSamples& samples, std::span<const 
 ExactPanes::ExactPanes(const light::PlannedLight& planned, const frame::Frame& frame,
                        std::shared_ptr<const CasterTree> blended, InstructionSet set)
     : tree_(std::move(blended)),
-      test_{&frame, tree_.get(), LightRays(*planned.placed), planned.number},
+      test_{&frame, tree_.get(), light::LightRays(*planned.placed), planned.number},
       set_(set) {}
 
 void ExactPanes::find(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,

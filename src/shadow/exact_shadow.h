@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "light/light_plan.h"
 #include "shadow/caster_tree.h"
 #include "shadow/exact_crossing.h"
 #include "shadow/panes.h"
@@ -14,7 +15,7 @@ namespace laterna::shadow {
 struct ExactShadowTest {
   const frame::Frame* frame;
   const CasterTree* tree;
-  LightRays light;
+  light::LightRays light;
   std::uint32_t number;  ///< tells lights apart
 };
 

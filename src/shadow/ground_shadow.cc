@@ -10,7 +10,7 @@
 #include "frame/surface_alpha.h"
 #include "light/floor.h"
 #include "light/ground_transformation.h"
-#include "light/homogeneous_light.h"
+#include "light/light_rays.h"
 
 namespace laterna::shadow {
 namespace {
@@ -117,12 +117,8 @@ GroundShadow::GroundShadow(const light::PlannedLight& planned, const frame::Fram
   const frame::PlacedLight& placed = *planned.placed;
   const glm::dvec4 light = light::homogeneous_light(placed);
   // A light whose box is fitted to the scene has nothing before it.
-  const bool has_near = placed.light->type == LightType::projector ||
-                        (placed.light->type == LightType::directional && !placed.light->fit);
-  if (has_near) {
-    const glm::dvec3 forward = placed.pose.forward_ws();
-    in_front_ = {forward, -glm::dot(forward, placed.pose.position_ws) - placed.view.projection.near};
-  }
+  const light::LightRays rays(placed);
+  if (rays.has_near) in_front_ = {rays.forward_ws, -glm::dot(rays.forward_ws, rays.position_ws) - rays.near};
   for (const ShadowPlane& plane : planned.ground_planes) {
     glm::dvec4 height = light::plane_equation(plane);
     const double light_height = glm::dot(height, light);
@@ -195,7 +191,7 @@ void GroundShadow::darken(const Receiver& receiver, Batch& batch, Arrival& arriv
   for (std::size_t c = 0; c < frame_.clusters.size() && batch.lit > 0; ++c) {
     const Cluster& cluster = frame_.clusters[c];
     // Panes: see shadow/panes.h.
-    if ((cluster.flags & kCastsShadow) == 0 || (cluster.flags & kAlphaBlend) != 0) continue;
+    if (!is_opaque_caster(cluster)) continue;
     const glm::dvec3 low(cluster.low_ws[0], cluster.low_ws[1], cluster.low_ws[2]);
     const glm::dvec3 high(cluster.high_ws[0], cluster.high_ws[1], cluster.high_ws[2]);
     const glm::dvec3 centre = 0.5 * (low + high);

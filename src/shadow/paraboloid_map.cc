@@ -51,11 +51,7 @@ ParaboloidPair::Texels ParaboloidPair::find_cone(const glm::dvec3& axis, double 
 }
 
 LocalTriangle::LocalTriangle(const frame::Frame& frame, TriangleId id, const ParaboloidPair& pair) {
-  const std::size_t first = frame.clusters[cluster_of(id)].first_vertex;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t v = first + (frame.corners[id] >> (8 * k) & 255U);
-    corner[k] = pair.to_eye({frame.x_ws[v], frame.y_ws[v], frame.z_ws[v]});
-  }
+  for (unsigned k = 0; k < 3; ++k) corner[k] = pair.to_eye(frame.corner_ws(id, k));
 }
 
 double LocalTriangle::volume() const { return glm::dot(corner[0], glm::cross(corner[1], corner[2])); }
@@ -151,7 +147,7 @@ class ParaboloidMap::Painter {
 
   void find_entries(std::size_t c, std::vector<Entry>& entries) const {
     const Cluster& cluster = frame_.clusters[c];
-    if ((cluster.flags & kCastsShadow) == 0 || (cluster.flags & kAlphaBlend) != 0) return;
+    if (!is_opaque_caster(cluster)) return;
     for (std::uint32_t k = 0; k < cluster.triangle_count; ++k) {
       const TriangleId id = static_cast<TriangleId>(c << kTriangleBits) | k;
       const LocalTriangle triangle(frame_, id, pair_);
@@ -208,16 +204,10 @@ class ParaboloidMap::Painter {
         const double sum = a + b + c;
         const auto reverse = static_cast<float>(sum * edges.inverse_volume);
         if (!(reverse > texel_row[x].reverse_distance)) continue;  // at equal distance the smaller id
-        if (is_hole(id, static_cast<float>(b / sum), static_cast<float>(c / sum))) continue;
+        if (frame::is_hole(frame_, id, static_cast<float>(b / sum), static_cast<float>(c / sum))) continue;
         texel_row[x] = {reverse, id};
       }
     }
-  }
-
-  [[nodiscard]] bool is_hole(TriangleId id, float b, float c) const {
-    const Cluster& cluster = frame_.clusters[cluster_of(id)];
-    if ((cluster.flags & kAlphaMask) == 0) return false;
-    return frame::alpha_at(frame_, id, b, c) < frame_.surfaces[cluster.material].alpha_cutoff;
   }
 
   const frame::Frame& frame_;

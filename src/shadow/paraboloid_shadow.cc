@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "frame/surface_alpha.h"
 #include "shadow/nearest_blocker.h"
 
 namespace laterna::shadow {
@@ -101,14 +100,11 @@ ParaboloidShadow::ParaboloidShadow(const light::PlannedLight& planned, const fra
 double ParaboloidShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                                       Arrival& arrival) const {
   arrival.is_tinted = false;
-  for (std::size_t group = 0; group < samples.group_count; ++group) {
-    for (unsigned mask = wanted[group]; mask != 0; mask &= mask - 1) {
-      const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
-      const bool is_refined = filter_ == ShadowFilter::refined;
-      const double alpha = is_refined ? refined(samples, i) : filtered(find_receiver(samples, i));
-      arrival.alpha[i] = static_cast<float>(alpha);
-    }
-  }
+  for_each_sample(samples, wanted, [&](std::size_t i) {
+    const bool is_refined = filter_ == ShadowFilter::refined;
+    const double alpha = is_refined ? refined(samples, i) : filtered(find_receiver(samples, i));
+    arrival.alpha[i] = static_cast<float>(alpha);
+  });
   return 0;
 }
 
@@ -292,20 +288,8 @@ std::array<TriangleId, 3> ParaboloidShadow::find_across(TriangleId id) const {
 
 bool ParaboloidShadow::is_blocked(const glm::vec3& position_ws, float nearest,
                                   const Suspects& suspects) const {
-  for (std::size_t k = 0; k < suspects.count; ++k) {
-    const TriangleId id = suspects.id[k];
-    const Cluster& cluster = frame_.clusters[cluster_of(id)];
-    const auto corner = [&](std::uint32_t c) {
-      const std::size_t v = cluster.first_vertex + (frame_.corners[id] >> (8 * c) & 255U);
-      return glm::vec3(frame_.x_ws[v], frame_.y_ws[v], frame_.z_ws[v]);
-    };
-    const Crossing crossing = find_crossing(light_, position_ws, nearest, {corner(0), corner(1), corner(2)});
-    if (!crossing.blocks) continue;
-    const bool has_holes = (cluster.flags & kAlphaMask) != 0;
-    const float cutoff = frame_.surfaces[cluster.material].alpha_cutoff;
-    if (!has_holes || !(frame::alpha_at(frame_, id, crossing.b, crossing.c) < cutoff)) return true;
-  }
-  return false;
+  return std::any_of(suspects.id.begin(), suspects.id.begin() + static_cast<std::ptrdiff_t>(suspects.count),
+                     [&](TriangleId id) { return darkens(frame_, light_, position_ws, nearest, id); });
 }
 
 // By the solid angle of a triangle that is small.

@@ -41,7 +41,7 @@ class ParaboloidShadow final : public ShadowTechnique {
 
   const frame::Frame& frame_;
   const frame::TriangleNeighbours* neighbours_;  // null: not known
-  LightRays light_;
+  light::LightRays light_;
   ParaboloidMap map_;
   ShadowFilter filter_;
   ShadowBias bias_;

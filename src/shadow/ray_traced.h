@@ -15,7 +15,7 @@ namespace laterna::shadow {
 class RaysToLight {
  public:
   RaysToLight(const light::PlannedLight& planned, std::shared_ptr<const trace::RayScene> scene)
-      : planned_(planned), scene_(std::move(scene)) {}
+      : light_(*planned.placed), scene_(std::move(scene)) {}
 
   struct Ray {
     glm::vec3 origin_ws, direction_ws;
@@ -24,10 +24,11 @@ class RaysToLight {
   };
   /// Empty (far below near) where there is nothing between the sample and the light's near plane.
   [[nodiscard]] Ray from(const SurfaceSamples& samples, std::size_t i) const;
+  [[nodiscard]] const light::LightRays& light() const { return light_; }
   [[nodiscard]] const trace::RayScene& scene() const { return *scene_; }
 
  private:
-  const light::PlannedLight& planned_;
+  light::LightRays light_;
   std::shared_ptr<const trace::RayScene> scene_;
 };
 
@@ -48,14 +49,13 @@ class RayTracedPanes final : public PaneFinder {
  public:
   RayTracedPanes(const light::PlannedLight& planned, const frame::Frame& frame,
                  std::shared_ptr<const trace::RayScene> scene)
-      : rays_(planned, std::move(scene)), frame_(frame), light_(*planned.placed) {}
+      : rays_(planned, std::move(scene)), frame_(frame) {}
   void find(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
             std::vector<PaneCrossing>& crossings) const override;
 
  private:
   RaysToLight rays_;
   const frame::Frame& frame_;
-  LightRays light_;
 };
 
 }  // namespace laterna::shadow

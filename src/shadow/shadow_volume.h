@@ -27,7 +27,7 @@ class ShadowVolume final : public ShadowTechnique {
   class Counter;
 
   const frame::Frame& frame_;
-  VolumeLight light_;
+  light::LightRays light_;
   VolumeSurface surface_;
   Eye eye_;
   VolumeBins bins_;

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/stopwatch.h"
-#include "light/homogeneous_light.h"
+#include "light/light_rays.h"
 
 namespace laterna::shadow {
 
@@ -54,16 +54,13 @@ struct SilhouetteShadow::Batch {
       : samples(s) {
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high(-std::numeric_limits<double>::infinity());
-    for (std::size_t group = 0; group < s.group_count; ++group) {
-      for (unsigned mask = wanted[group]; mask != 0; mask &= mask - 1) {
-        const std::size_t i = group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask));
-        indices[count] = static_cast<std::uint16_t>(i);
-        object[count] = frame.clusters[cluster_of(s.id[i])].object;
-        ++count;
-        low = glm::min(low, point(i));
-        high = glm::max(high, point(i));
-      }
-    }
+    for_each_sample(s, wanted, [&](std::size_t i) {
+      indices[count] = static_cast<std::uint16_t>(i);
+      object[count] = frame.clusters[cluster_of(s.id[i])].object;
+      ++count;
+      low = glm::min(low, point(i));
+      high = glm::max(high, point(i));
+    });
     if (count == 0) return;
     sphere.centre = 0.5 * (low + high);
     sphere.radius = 0.5 * glm::length(high - low) + static_cast<double>(s.position_error);

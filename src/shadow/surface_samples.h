@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <span>
 
 #include "base/triangle_clusters.h"
 #include "raster/raster_view.h"
@@ -39,5 +40,14 @@ struct SurfaceSamples {
   /// Bounds on how far x_ws, y_ws, z_ws may be off by rounding, in metres.
   float position_error = 0;
 };
+
+/// Calls `use(i)` for every sample named by `wanted`, a bit each, by group.
+template <class Use>
+void for_each_sample(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted, Use use) {
+  for (std::size_t group = 0; group < samples.group_count; ++group) {
+    for (unsigned mask = wanted[group]; mask != 0; mask &= mask - 1)
+      use(group * kGroupSize + static_cast<std::size_t>(__builtin_ctz(mask)));
+  }
+}
 
 }  // namespace laterna::shadow

@@ -137,7 +137,7 @@ class VolumeBins::Sorter {
   std::uint64_t cells_ = 0;
 };
 
-VolumeBins::VolumeBins(const VolumeSurface& surface, const VolumeLight& light, const Eye& eye,
+VolumeBins::VolumeBins(const VolumeSurface& surface, const light::LightRays& light, const Eye& eye,
                        const raster::RasterView& camera, const frame::Bounds& bounds, const TaskPool& pool)
     : surface_(surface),
       light_(light),
@@ -145,13 +145,13 @@ VolumeBins::VolumeBins(const VolumeSurface& surface, const VolumeLight& light, c
       // A tile around the picture, for samples that are moved out of it.
       x_begin_(-camera.origin_x - kTileSide),
       y_begin_(-camera.origin_y - kTileSide),
-      tiles_x_((camera.width + kTileSide - 1) / kTileSide + 2),
-      tiles_y_((camera.height + kTileSide - 1) / kTileSide + 2) {
+      tiles_x_(raster::tiles_across(camera.width) + 2),
+      tiles_y_(raster::tiles_across(camera.height) + 2) {
   for (int k = 0; k < 3; ++k)
     farthest_ = std::max({farthest_, std::abs(double{bounds.low[k]}), std::abs(double{bounds.high[k]})});
   for (const glm::dvec3& point : surface.points_ws()) {
     to_points_.push_back(eye_.to_point(point));
-    to_ends_.push_back(eye_.to_infinity(light_.direction_at(point)));
+    to_ends_.push_back(eye_.to_infinity(light_.away_at(point)));
   }
   sort_facets(pool);
   sort_prisms(pool);
@@ -254,7 +254,7 @@ void VolumeBins::find_plane(const VolumeTriangle& triangle, double (&plane)[4]) 
   const glm::dvec3& origin = points[triangle.corner[0].point];
   const auto along = [&](const VolumeCorner& corner) {
     const glm::dvec3& point = points[corner.point];
-    return corner.is_infinite ? light_.direction_at(point) : point - origin;
+    return corner.is_infinite ? light_.away_at(point) : point - origin;
   };
   const glm::dvec3 normal = glm::cross(along(triangle.corner[1]), along(triangle.corner[2]));
   for (int i = 0; i < 3; ++i) plane[i] = normal[i];

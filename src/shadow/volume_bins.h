@@ -55,7 +55,7 @@ class VolumeBins {
   };
 
   /// The surface must outlive this.
-  VolumeBins(const VolumeSurface& surface, const VolumeLight& light, const Eye& eye,
+  VolumeBins(const VolumeSurface& surface, const light::LightRays& light, const Eye& eye,
              const raster::RasterView& camera, const frame::Bounds& bounds, const TaskPool& pool);
 
   [[nodiscard]] Place place_of(const EyeDirection& direction) const;
@@ -104,7 +104,7 @@ class VolumeBins {
   void merge(std::span<Batch<Item>> batches, std::vector<Item>& items, Lists& lists) const;
 
   const VolumeSurface& surface_;
-  const VolumeLight& light_;
+  const light::LightRays& light_;
   Eye eye_;
   int x_begin_, y_begin_, tiles_x_, tiles_y_;  // pixels from the picture's middle
   std::vector<EyeDirection> to_points_, to_ends_;

@@ -20,37 +20,18 @@ struct Position {
   }
 };
 
-// Blended surfaces tint what comes through (shadow/panes).
-bool is_caster(const Cluster& cluster) {
-  return (cluster.flags & kCastsShadow) != 0 && (cluster.flags & kAlphaBlend) == 0;
-}
-
 }  // namespace
-
-VolumeLight::VolumeLight(const frame::PlacedLight& placed)
-    : position_ws(placed.pose.position_ws), forward_ws(placed.pose.forward_ws()) {
-  const Light& light = *placed.light;
-  const bool is_boxed = light.type == LightType::directional && !light.fit;
-  is_parallel = light.type == LightType::directional ||
-                (light.type == LightType::projector && placed.view.projection.is_orthographic);
-  has_near = is_boxed || light.type == LightType::projector;
-  near = has_near ? placed.view.projection.near : 0;
-}
-
-double VolumeLight::beyond_near(const glm::dvec3& point_ws) const {
-  return has_near ? glm::dot(forward_ws, point_ws - position_ws) - near : 1;
-}
 
 class VolumeSurface::Builder {
  public:
-  Builder(const frame::Frame& frame, const VolumeLight& light, VolumeSurface& surface)
+  Builder(const frame::Frame& frame, const light::LightRays& light, VolumeSurface& surface)
       : frame_(frame), light_(light), surface_(surface) {}
 
   void build() {
     join_vertices();
     for (std::uint32_t c = 0; c < frame_.clusters.size(); ++c) {
       const Cluster& cluster = frame_.clusters[c];
-      if (!is_caster(cluster)) continue;
+      if (!is_opaque_caster(cluster)) continue;
       const bool is_cutout = (cluster.flags & kAlphaMask) != 0;
       for (std::uint32_t t = 0; t < cluster.triangle_count; ++t)
         add_caster(c << kTriangleBits | t, cluster.first_vertex, is_cutout);
@@ -63,7 +44,7 @@ class VolumeSurface::Builder {
   void join_vertices() {
     std::vector<Position> positions;
     for (const Cluster& cluster : frame_.clusters) {
-      if (!is_caster(cluster)) continue;
+      if (!is_opaque_caster(cluster)) continue;
       for (std::uint32_t v = cluster.first_vertex; v < cluster.first_vertex + cluster.vertex_count; ++v)
         positions.push_back({frame_.x_ws[v], frame_.y_ws[v], frame_.z_ws[v], v});
     }
@@ -127,7 +108,7 @@ class VolumeSurface::Builder {
     const glm::dvec3& a = surface_.points_ws_[corners[0]];
     const glm::dvec3 normal =
         glm::cross(surface_.points_ws_[corners[1]] - a, surface_.points_ws_[corners[2]] - a);
-    const double away = glm::dot(normal, light_.direction_at(a));
+    const double away = glm::dot(normal, light_.away_at(a));
     if (away > 0) std::swap(corners[1], corners[2]);
     return away != 0;
   }
@@ -173,7 +154,7 @@ class VolumeSurface::Builder {
   };
 
   const frame::Frame& frame_;
-  const VolumeLight& light_;
+  const light::LightRays& light_;
   VolumeSurface& surface_;
   std::vector<std::uint32_t> point_of_vertex_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> near_points_;
@@ -202,7 +183,7 @@ std::vector<VolumeTriangle> VolumeSurface::surface_of(const VolumePrism& prism) 
   return triangles;
 }
 
-VolumeSurface::VolumeSurface(const frame::Frame& frame, const VolumeLight& light)
+VolumeSurface::VolumeSurface(const frame::Frame& frame, const light::LightRays& light)
     : is_parallel_(light.is_parallel) {
   Builder(frame, light, *this).build();
 }

@@ -8,25 +8,9 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "light/light_rays.h"
 
 namespace laterna::shadow {
-
-/// A light as shadow volumes see it.
-struct VolumeLight {
-  explicit VolumeLight(const frame::PlacedLight& placed);
-
-  /// Unnormalised, and away from it.
-  [[nodiscard]] glm::dvec3 direction_at(const glm::dvec3& point_ws) const {
-    return is_parallel ? forward_ws : point_ws - position_ws;
-  }
-  /// Of a point, along the axis.
-  [[nodiscard]] double beyond_near(const glm::dvec3& point_ws) const;
-
-  glm::dvec3 position_ws, forward_ws;
-  bool is_parallel = false;
-  bool has_near = false;  ///< casters, and parts of them, nearer than `near` along the axis do not count
-  double near = 0;
-};
 
 /// A corner of the surface: a point, or where the ray from the light through that point ends, infinitely far away.
 struct VolumeCorner {
@@ -64,7 +48,7 @@ struct VolumePrism {
 /// Shadow volumes for non-manifold meshes, 2008.
 class VolumeSurface {
  public:
-  VolumeSurface(const frame::Frame& frame, const VolumeLight& light);
+  VolumeSurface(const frame::Frame& frame, const light::LightRays& light);
 
   [[nodiscard]] const std::vector<glm::dvec3>& points_ws() const { return points_ws_; }
   [[nodiscard]] const std::vector<VolumeTriangle>& triangles() const { return triangles_; }

@@ -49,7 +49,7 @@ class EmbreeScene {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t c = 0; c < frame_.clusters.size(); ++c) {
       const Cluster& cluster = frame_.clusters[c];
-      if ((cluster.flags & kCastsShadow) == 0 || ((cluster.flags & kAlphaBlend) != 0) != blended_) continue;
+      if (!(blended_ ? is_blended_caster(cluster) : is_opaque_caster(cluster))) continue;
       for (std::uint32_t t = 0; t < cluster.triangle_count; ++t) {
         const TriangleId id = c << kTriangleBits | t;
         const std::uint32_t packed = frame_.corners[id];
@@ -86,14 +86,9 @@ class EmbreeScene {
       const float u = RTCHitN_u(arguments->hit, arguments->N, i);
       const float v = RTCHitN_v(arguments->hit, arguments->N, i);
       if (self.blended_ && id != context.own) context.panes->push_back({id, u, v});
-      if (self.blended_ || id == context.own || self.is_hole(id, u, v)) arguments->valid[i] = 0;
+      if (self.blended_ || id == context.own || frame::is_hole(self.frame_, id, u, v))
+        arguments->valid[i] = 0;
     }
-  }
-
-  [[nodiscard]] bool is_hole(TriangleId id, float b, float c) const {
-    const Cluster& cluster = frame_.clusters[cluster_of(id)];
-    if ((cluster.flags & kAlphaMask) == 0) return false;
-    return frame::alpha_at(frame_, id, b, c) < frame_.surfaces[cluster.material].alpha_cutoff;
   }
 
   const frame::Frame& frame_;

@@ -219,11 +219,8 @@ double contact_gap(const ShadowMasks& masks, const ShadowSample& sample, double 
 
 std::vector<ShadowMapFrame> shadow_map_frames(const Renderer& renderer, const std::string& light) {
   std::vector<ShadowMapFrame> frames;
-  const int faces = renderer.depth_map_count(light).value();
-  for (int face = 0; face < faces; ++face) {
-    const LayeredImage map = renderer.depth_map(light, face).value();
-    frames.push_back({renderer.depth_map_view(light, face).value(), map.width, map.height});
-  }
+  const std::vector<ShadowMapView> views = renderer.depth_map_views(light).value();
+  for (const ShadowMapView& map : views) frames.push_back({map.view, map.width, map.height});
   return frames;
 }
 

@@ -958,11 +958,11 @@ TEST(Conventions, H4_SixMapsInTheOrderOfTheAxes) {
   Scene scene = wall_scene();
   add_light(scene, light_of(LightType::point, 1), {1, 2, 3}, {0, 0, 0});
   const Renderer renderer = make_renderer(std::move(scene));
-  ASSERT_EQ(renderer.depth_map_count("light").value(), 6);
+  ASSERT_EQ(renderer.depth_map_views("light")->size(), 6U);
   const std::array<glm::dvec3, 6> axes = {
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
   for (int face = 0; face < 6; ++face) {
-    const Pose pose = renderer.depth_map_view("light", face)->pose;
+    const Pose pose = renderer.depth_map_views("light")->at(static_cast<std::size_t>(face)).view.pose;
     EXPECT_EQ(pose.position_ws, glm::dvec3(1, 2, 3)) << face;
     EXPECT_EQ(pose.forward_ws(), axes[static_cast<std::size_t>(face)]) << face;
     EXPECT_EQ(pose.up_ws(), face / 2 == 1 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0)) << face;

@@ -190,11 +190,11 @@ TEST(ShadowMemory, IsReportedPerLight) {
     const RenderStatistics::LightMemory& memory = statistics.shadow_memory[i];
     EXPECT_EQ(memory.light, expected[i]);
     int texels = 0;
-    for (int face = 0; face < renderer.depth_map_count(memory.light).value(); ++face) {
+    for (int face = 0; face < static_cast<int>(renderer.depth_map_views(memory.light)->size()); ++face) {
       const LayeredImage map = renderer.depth_map(memory.light, face).value();
       texels += map.width * map.height;
     }
-    EXPECT_EQ(memory.maps, renderer.depth_map_count(memory.light).value()) << memory.light;
+    EXPECT_EQ(memory.maps, static_cast<int>(renderer.depth_map_views(memory.light)->size())) << memory.light;
     // A float per texel, for refined shadows the triangle too; stored in whole tiles of 64 × 64.
     EXPECT_GE(memory.bytes, static_cast<std::size_t>(texels) * 4) << memory.light;
     EXPECT_LE(memory.bytes, static_cast<std::size_t>(texels) * 8 * 2) << memory.light;

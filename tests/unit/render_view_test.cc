@@ -170,10 +170,10 @@ TEST(RenderLightViews, ALightSeesWhatItsShadowMapHolds) {
   for (const char* name : {"lantern", "spot", "sun", "parallel"}) {
     const Result<View> view = renderer.light_view(name);
     ASSERT_TRUE(view) << name;
-    EXPECT_EQ(view->pose.position_ws, renderer.depth_map_view(name)->pose.position_ws);
-    EXPECT_EQ(renderer.depth_map_count(name).value(), 1);
+    EXPECT_EQ(view->pose.position_ws, renderer.depth_map_views(name)->at(0).view.pose.position_ws);
+    EXPECT_EQ(renderer.depth_map_views(name)->size(), 1U);
   }
-  EXPECT_EQ(renderer.depth_map_count("bulb").value(), 6);
+  EXPECT_EQ(renderer.depth_map_views("bulb")->size(), 6U);
   EXPECT_EQ(to_string(renderer.light_view("bulb").error()),
             "light \"bulb\" shines all round: it has no one view");
   EXPECT_EQ(to_string(renderer.depth_map("bulb", 6).error()),

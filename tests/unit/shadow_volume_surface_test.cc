@@ -100,7 +100,7 @@ VolumeSurface surface_of(Primitive primitive, const Light& light, glm::dvec3 pos
   add_object(scene, "caster", std::move(primitive));
   add_light(scene, light, position, target);
   const OwnedFrame owned = make_frame(std::move(scene));
-  return {owned.frame, VolumeLight(owned.frame.lights.at(0))};
+  return {owned.frame, light::LightRays(owned.frame.lights.at(0))};
 }
 
 Light point_light() {
