@@ -161,7 +161,8 @@ constexpr Figure kFigures[] = {
      "Each model is both. Its silhouette is thrown on those that are farther from the light, and on no "
      "others.",
      "A silhouette knows no depth within its model, so nothing shadows itself: the rays show what is missing "
-     "within the urn and on the ring.",
+     "at the root "
+     "of the teapot's spout, under its lid and on the urn's foot.",
      "laterna render scene.glb --rig lamp.json --shadows silhouette -o silhouette.png", draw_procedure},
     {"plane-and-terrain", "Plane and terrain, one light and several", "Chen and Tung, figures 21 to 23",
      "What falls on hills follows them. Each light has its own shadows; where two meet only the third light "

@@ -113,6 +113,7 @@ void draw_averages(Sitting& sitting) {
 void draw_darkness(Sitting& sitting) {
   Shot shot = solids_set();
   shot.scene.ambient = glm::vec3(0.05F);
+  shot.scene.phong = PhongHighlight{0.5F, 12};
   ShadowSettings& shadow = add_morning_sun(shot.scene).shadow;
   sitting.picture("Only ambient light in shadow: curves look flat.", shot);
   shadow.ambient = 0.25F;
