@@ -279,6 +279,64 @@ TEST(Segal1992Photograph, GainsHideTheSeams) {
   }
 }
 
+// A facade of known colours, photographed from four places and looked at from a fifth: what any photograph sees is as it is, but
+// for pixels of photographs that show two things at once. Where seams are feathered, these count less.
+TEST(Segal1992Photograph, APhotographedFacadeLooksAsItDoes) {
+  constexpr int kWidth = 240, kHeight = 160, kPhotoWidth = 480, kPhotoHeight = 320;
+  Scene truth = facade();
+  const int picture = add_picture(truth, 8, 8, [](int x, int y) {
+    return glm::u8vec3(60 + 20 * ((3 * x + 5 * y) % 8), 80 + 15 * ((5 * x + y) % 8),
+                       100 + 10 * ((x + 7 * y) % 8));
+  });
+  for (std::size_t i = 0; i < truth.materials.size(); ++i) {
+    truth.materials[i].unlit = true;
+    truth.materials[i].base_color =
+        glm::vec4(1, 1 - 0.15F * static_cast<float>(i), 0.4F + 0.15F * static_cast<float>(i), 1);
+    truth.materials[i].base_color_texture.picture = picture;
+  }
+  Scene photographed = facade();
+  const Renderer original = make_renderer(std::move(truth));
+  RenderSettings settings = photo_settings(kPhotoWidth, kPhotoHeight);
+  settings.layers.clear();
+  for (const glm::dvec3 place :
+       {glm::dvec3(-4, 1, 8), glm::dvec3(-1.5, 0, 8), glm::dvec3(1.5, 2, 8), glm::dvec3(4, 1, 8)}) {
+    const View view =
+        photograph_view(place, {0.3 * place.x, 0, 0}, 400, {239.5, 159.5}, kPhotoWidth, kPhotoHeight);
+    const LayeredImage photo = render(original, view, settings);
+    add_photograph(photographed, "from " + std::to_string(place.x), view, kPhotoWidth, kPhotoHeight,
+                   [&](int x, int y) {
+                     return glm::vec3(at(photo, "R", x, y), at(photo, "G", x, y), at(photo, "B", x, y));
+                   });
+  }
+  const View camera = photograph_view({0.5, 1, 7.5}, {0, 0, 0}, 200, {119.5, 79.5}, kWidth, kHeight);
+  settings = photo_settings(kWidth, kHeight);
+  const LayeredImage expected = render(original, camera, settings);
+  double squares_before = 1e9;
+  for (const double feather : {0.0, 0.05}) {
+    photographed.photograph_settings.feather = feather;
+    const LayeredImage image = render(make_renderer(photographed), camera, settings);
+    double squares = 0;
+    int seen = 0, off = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        if (at(image, "photo.seen", x, y) < 1) continue;
+        double largest = 0;
+        for (const char* channel : {"R", "G", "B"})
+          largest = std::max(
+              largest, std::abs(static_cast<double>(at(image, channel, x, y)) - at(expected, channel, x, y)));
+        squares += largest * largest;
+        off += largest > 0.05 ? 1 : 0;
+        ++seen;
+      }
+    }
+    EXPECT_GT(seen, kWidth * kHeight / 2);
+    EXPECT_LT(off, seen / 50);
+    EXPECT_GT(-10 * std::log10(squares / seen), 32);
+    EXPECT_LT(squares, squares_before);
+    squares_before = squares;
+  }
+}
+
 // Of several photographs the weights are (ρ cos θ)², and shares add up to 1.
 TEST(Segal1992Photograph, SharesFollowAngleAndResolution) {
   Scene scene;
