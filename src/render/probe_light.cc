@@ -134,7 +134,7 @@ class Batch {
 };
 
 // All probes, with lights as they shine from one point of their sources: added to the readings.
-void measure_once(const ProbeContext& context, std::span<const Probe> probes, light::SampleIndex sample,
+void measure_once(const ProbeContext& context, std::span<const Probe> probes, SampleIndex sample,
                   std::span<ProbeReading> readings) {
   light::LightPlan plan =
       light::make_light_plan(context.frame, {ShadowTechnique::raytraced, sample, nullptr});

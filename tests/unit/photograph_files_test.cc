@@ -211,12 +211,12 @@ TEST(PhotographFiles, LensDistortionIsRemoved) {
   const auto colour = [](glm::dvec2 p) {
     return 0.5 + 0.2 * std::sin(9 * p.x) + 0.2 * std::cos(8 * p.y + p.x);
   };
-  LensDistortion barrel, pincushion, rational;
+  CameraDistortion barrel, pincushion, rational;
   barrel.k = {-0.2, 0.05, 0, 0, 0, 0};
   barrel.p = {0.002, -0.001};
   pincushion.k = {0.15, 0.02, 0, 0, 0, 0};
   rational.k = {0.1, -0.02, 0.01, 0.2, 0.01, 0.001};
-  for (const LensDistortion& lens : {barrel, pincushion, rational}) {
+  for (const CameraDistortion& lens : {barrel, pincushion, rational}) {
     std::string fault;
     const PinholeFrame frame = find_pinhole_frame(k, lens, fault);
     ASSERT_EQ(fault, "");
