@@ -451,7 +451,8 @@ const RigCase kRigCases[] = {
      "r.json: line 3: lights[1].focus: needs \"aperture_radius\" beside it: through a pinhole all is in "
      "focus\n"
      "r.json: line 4: lights[2].size: the light shines from its lens: give either this or aperture_radius\n"
-     "r.json: line 5: lights[3].aperture_radius: a spot light has no key \"aperture_radius\"\n"
+     "r.json: line 5: lights[3].aperture_radius: a spot light has no key \"aperture_radius\" (did you mean "
+     "\"radius\"?)\n"
      "r.json: line 6: lights[4].aperture_radius: a parallel projector has no lens to open"},
     {"ShadowResolutionFraction",
      "{\"lights\": [{\"type\": \"point\", \"position\": [0,0,0], \"shadow\": {\"resolution\": 1024.5}}]}",

