@@ -75,6 +75,12 @@ constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 Primitive& primitive_of(Scene& scene) { return scene.meshes[0].primitives[0]; }
 
+Picture picture_of(const char* file) {
+  Picture picture;
+  picture.name = picture.file = file;
+  return picture;
+}
+
 Photograph photograph(int picture) {
   Photograph photograph;
   photograph.name = "photo";
@@ -260,6 +266,24 @@ const SceneCase kSceneCases[] = {
      "lights[1].aperture.radius: the light shines from its lens: leave out the source's size"},
     {"ProjectorFrustum", [](Scene& s) { s.lights[1].projection.left = 5; },
      "lights[1].projection: the frustum has no width or no height"},
+    {"DistortionOfABulb", [](Scene& s) { s.lights[0].distortion.k1 = 0.1; },
+     "lights[0].distortion: only a projector has a lens that distorts"},
+    {"DistortionOfAFrameOfNoShape", [](Scene& s) { s.lights[1].distortion.k1 = 0.1; },
+     "lights[1].distortion: needs a frame of a known shape: set aspect_from_slide to false, and the slide's "
+     "aspect in the projection"},
+    {"DistortionThatFolds",
+     [](Scene& s) {
+       s.lights[1].aspect_from_slide = false;
+       s.lights[1].distortion.k1 = -5;
+     },
+     "lights[1].distortion: cannot be inverted: it folds back 14.48 degrees off the lens axis (tangent "
+     "0.2582), so that the slide's point (0, 0), from its top-left corner, is thrown nowhere"},
+    {"DistortionNotANumber",
+     [](Scene& s) {
+       s.lights[1].aspect_from_slide = false;
+       s.lights[1].distortion.k3 = NAN;
+     },
+     "lights[1].distortion: expected finite coefficients of at most 1e+06, got nan"},
     {"SunFrustum",
      [](Scene& s) {
        s.lights[0].type = LightType::directional;
@@ -365,21 +389,21 @@ const SceneCase kSceneCases[] = {
      "photographs[0].picture: -1 is no index into the 0 pictures"},
     {"PhotographParallel",
      [](Scene& s) {
-       s.pictures.push_back(Picture{.name = "p", .file = "p.png"});
+       s.pictures.push_back(picture_of("p.png"));
        s.photographs.push_back(photograph(0));
        s.photographs[0].projection = Projection::orthographic(1, 1, 0, 10);
      },
      "photographs[0].projection: a photograph's projection must be perspective"},
     {"PhotographMirrored",
      [](Scene& s) {
-       s.pictures.push_back(Picture{.name = "p", .file = "p.png"});
+       s.pictures.push_back(picture_of("p.png"));
        s.photographs.push_back(photograph(0));
        s.photographs[0].pose.world_from_view_rotation[0] *= -1;
      },
      "photographs[0].pose: its rotation must be right-handed, not mirrored"},
     {"PhotographGain",
      [](Scene& s) {
-       s.pictures.push_back(Picture{.name = "p", .file = "p.png"});
+       s.pictures.push_back(picture_of("p.png"));
        s.photographs.push_back(photograph(0));
        s.photographs[0].gain.y = 0;
      },

@@ -109,7 +109,14 @@ struct TestLight {
   const image::MipChain* slide = nullptr;
 
   [[nodiscard]] frame::PlacedLight placed() const {
-    return {&light, 0, pose, {pose, light.projection}, light.intensity, slide};
+    frame::PlacedLight placed;
+    placed.light = &light;
+    placed.node = 0;
+    placed.pose = pose;
+    placed.view = {pose, light.projection};
+    placed.intensity = light.intensity;
+    placed.slide = slide;
+    return placed;
   }
 };
 
