@@ -19,6 +19,11 @@ constexpr int kPlacesPerSide = 64;
 // Coefficient i belongs to x^i.
 using Polynomial = std::vector<double>;
 
+Polynomial without_leading_zeros(Polynomial p) {
+  while (p.size() > 1 && p.back() == 0) p.pop_back();
+  return p;
+}
+
 double value(const Polynomial& p, double x) {
   double sum = 0;
   for (std::size_t i = p.size(); i-- > 0;) sum = sum * x + p[i];
@@ -91,6 +96,21 @@ bool approach(const LensDistortion& lens, double field, glm::dvec2 place, glm::d
   return false;
 }
 
+// `undistorted` for a lens whose field is known.
+std::optional<glm::dvec2> undistorted_within(const LensDistortion& lens, double field, glm::dvec2 place) {
+  if (!std::isfinite(place.x) || !std::isfinite(place.y)) return std::nullopt;
+  const double distance = glm::length(place);
+  glm::dvec2 direction = distance > field ? place * (field / distance) : place;
+  if (approach(lens, field, place, direction)) return direction;
+  // Lenses that bend much: from the axis outward, so that Newton's method always starts near by.
+  constexpr int kStages = 8;
+  direction = glm::dvec2(0);
+  for (int stage = 1; stage <= kStages; ++stage) {
+    if (!approach(lens, field, place * (stage / double{kStages}), direction)) return std::nullopt;
+  }
+  return direction;
+}
+
 std::string fold_message(double field, glm::dvec2 slide) {
   return fmt::format(
       "cannot be inverted: it folds back {:.4g} degrees off the lens axis (tangent {:.4g}), so that the "
@@ -114,22 +134,14 @@ double lens_field(const LensDistortion& l) {
   double field = kWidestLensField;
   for (const Polynomial& eigenvalue : {Polynomial{1, tangential, 3 * l.k1, 0, 5 * l.k2, 0, 7 * l.k3},
                                        Polynomial{1, tangential, l.k1, 0, l.k2, 0, l.k3}}) {
-    const std::vector<double> folds = sign_changes(eigenvalue, 0, field);
+    const std::vector<double> folds = sign_changes(without_leading_zeros(eigenvalue), 0, field);
     if (!folds.empty()) field = std::min(field, folds.front());
   }
   return field;
 }
 
 std::optional<glm::dvec2> undistorted(const LensDistortion& lens, glm::dvec2 place) {
-  if (!std::isfinite(place.x) || !std::isfinite(place.y)) return std::nullopt;
-  // From the axis outward, so that Newton's method always starts near by.
-  constexpr int kStages = 8;
-  const double field = lens_field(lens);
-  glm::dvec2 direction(0);
-  for (int stage = 1; stage <= kStages; ++stage) {
-    if (!approach(lens, field, place * (stage / double{kStages}), direction)) return std::nullopt;
-  }
-  return direction;
+  return undistorted_within(lens, lens_field(lens), place);
 }
 
 std::string find_fault(const LensDistortion& lens, const Projection& frame) {
@@ -150,7 +162,7 @@ std::string find_fault(const LensDistortion& lens, const Projection& frame) {
            {glm::dvec2(t, 0), glm::dvec2(1, t), glm::dvec2(1 - t, 1), glm::dvec2(0, 1 - t)}) {
         const glm::dvec2 place(frame.left + slide.x * (frame.right - frame.left),
                                -frame.top + slide.y * (frame.top - frame.bottom));
-        if (!undistorted(lens, place)) return fold_message(field, slide);
+        if (!undistorted_within(lens, field, place)) return fold_message(field, slide);
       }
     }
   }

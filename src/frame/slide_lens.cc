@@ -13,7 +13,7 @@ namespace {
 
 // The sides of a thrown picture are curves: so many chords to a side, and of its size this much of a margin for what lies
 // beyond them and for single precision.
-constexpr int kChordsPerSide = 256;
+constexpr int kChordsPerSide = 64;
 constexpr double kMargin = 1e-3;
 
 // The directions to which a frame's sides are thrown, all the way round. OpenCV's axes: y downward.

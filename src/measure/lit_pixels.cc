@@ -6,9 +6,19 @@
 #include <glm/matrix.hpp>
 
 #include "base/elementary.h"
+#include "frame/slide_points.h"
 #include "light/light_rays.h"
 
 namespace laterna::measure {
+namespace {
+
+bool is_in_picture(const frame::PlacedLight& projector, const glm::dvec3& point_ws) {
+  const std::optional<glm::dvec2> slide = frame::slide_from_world(projector, point_ws);
+  if (!slide || projector.light->outside != Outside::black) return slide.has_value();
+  return slide->x >= 0 && slide->x <= 1 && slide->y >= 0 && slide->y <= 1;
+}
+
+}  // namespace
 
 Result<LitPixels> LitPixels::find(const Renderer& renderer, const PictureSurface& surface,
                                   const ShadowRays& rays, const std::string& light) {
@@ -40,6 +50,8 @@ Result<LitPixels> LitPixels::find(const Renderer& renderer, const PictureSurface
 bool LitPixels::reaches(const glm::dvec3& point_ws) const {
   const Light& light = *light_->light;
   if (light.type == LightType::directional) return true;
+  // The beam of a lens that distorts has corners that its picture does not reach.
+  if (light_->lens && !is_in_picture(*light_, point_ws)) return false;
   const glm::dvec3 from_light = point_ws - light_->pose.position_ws;
   const double distance = glm::length(from_light);
   const double along = glm::dot(from_light, light_->pose.forward_ws());

@@ -177,6 +177,24 @@ const SceneCase kSceneCases[] = {
      "lights[1].slide: is not set, but slide_is_intensity says that it holds the intensities"},
     {"ProjectorFrustum", [](Scene& s) { s.lights[1].projection.left = 5; },
      "lights[1].projection: the frustum has no width or no height"},
+    {"DistortionOfABulb", [](Scene& s) { s.lights[0].distortion.k1 = 0.1; },
+     "lights[0].distortion: only a projector has a lens that distorts"},
+    {"DistortionOfAFrameOfNoShape", [](Scene& s) { s.lights[1].distortion.k1 = 0.1; },
+     "lights[1].distortion: needs a frame of a known shape: set aspect_from_slide to false, and the slide's "
+     "aspect in the projection"},
+    {"DistortionThatFolds",
+     [](Scene& s) {
+       s.lights[1].aspect_from_slide = false;
+       s.lights[1].distortion.k1 = -5;
+     },
+     "lights[1].distortion: cannot be inverted: it folds back 14.48 degrees off the lens axis (tangent "
+     "0.2582), so that the slide's point (0, 0), from its top-left corner, is thrown nowhere"},
+    {"DistortionNotANumber",
+     [](Scene& s) {
+       s.lights[1].aspect_from_slide = false;
+       s.lights[1].distortion.k3 = NAN;
+     },
+     "lights[1].distortion: expected finite coefficients of at most 1e+06, got nan"},
     {"SunFrustum",
      [](Scene& s) {
        s.lights[0].type = LightType::directional;

@@ -109,7 +109,7 @@ struct TestLight {
   const image::MipChain* slide = nullptr;
 
   [[nodiscard]] frame::PlacedLight placed() const {
-    return {&light, 0, pose, {pose, light.projection}, light.intensity, slide};
+    return {&light, 0, pose, {pose, light.projection}, std::nullopt, light.intensity, slide};
   }
 };
 

@@ -131,6 +131,21 @@ Image paint_lake(int width, int height) {
   });
 }
 
+Image paint_grid(int width, int height, const std::function<glm::vec2(glm::vec2)>& bend) {
+  return paint(width, height, [&](glm::vec2 place) {
+    const glm::vec2 p = bend(place);
+    if (p.x < 0 || p.x > 1 || p.y < 0 || p.y > 1) return glm::vec3(0);
+    const glm::vec2 cell = p * glm::vec2(16, 9);
+    const float rim = std::min({cell.x, 16 - cell.x, cell.y, 9 - cell.y});
+    if (rim < 0.12F) return glm::vec3(0.92F, 0.25F, 0.12F);
+    const float line = std::min(std::min(fraction(cell.x), 1 - fraction(cell.x)),
+                                std::min(fraction(cell.y), 1 - fraction(cell.y)));
+    if (line < 0.045F) return glm::vec3(0.1F, 0.1F, 0.18F);
+    return (whole(cell.x) + whole(cell.y)) % 2 == 0 ? glm::vec3(0.94F, 0.93F, 0.88F)
+                                                    : glm::vec3(0.56F, 0.70F, 0.88F);
+  });
+}
+
 Image paint_star(int side) {
   Image image(side, side, 1, PixelType::u8, Transfer::linear);
   const std::span<std::uint8_t> values = image.values<std::uint8_t>();
