@@ -46,7 +46,7 @@ struct PlacedLight {
   const Light* light = nullptr;
   int node = -1;
   Pose pose;
-  View view;  ///< projector: its frustum, with the slide's aspect; with a lens its beam
+  View view;                      ///< projector: its frustum, with the slide's aspect; with a lens its beam
   std::optional<SlideLens> lens;  ///< of a projector with distortion
   double intensity = 0;  ///< candela on the axis (lamps: at their peak), or lux: what `lumens` comes to
   const image::MipChain* slide = nullptr;  ///< null: plain white

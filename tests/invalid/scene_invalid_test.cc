@@ -386,7 +386,7 @@ const SceneCase kSceneCases[] = {
      },
      "nodes[0]: meshes[0] reaches more than 1000000000 m from the origin"},
     {"PhotographWithoutPicture", [](Scene& s) { s.photographs.push_back(photograph(-1)); },
-     "photographs[0].picture: -1 is no index into the 0 pictures"},
+     "photographs[0].picture: -1 is no index into the 1 pictures"},
     {"PhotographParallel",
      [](Scene& s) {
        s.pictures.push_back(picture_of("p.png"));

@@ -117,7 +117,8 @@ TEST(Lens, TheBeamHoldsTheWholePicture) {
       const double cell =
           (beam.right - beam.left) * (beam.top - beam.bottom) / (double{kCount} * double{kCount});
       for (int i = 0; i < kCount * kCount; ++i) {
-        const glm::dvec2 image((i % kCount + 0.5) / kCount, (i / kCount + 0.5) / kCount);
+        const int column = i % kCount, row = i / kCount;
+        const glm::dvec2 image((column + 0.5) / kCount, (row + 0.5) / kCount);
         const auto slide = slide_lens.slide_from_beam(image);
         if (!slide || slide->x < 0 || slide->x > 1 || slide->y < 0 || slide->y > 1) continue;
         const double x = beam.left + image.x * (beam.right - beam.left);
