@@ -287,24 +287,21 @@ const SceneCase kSceneCases[] = {
      },
      "nodes[0]: meshes[0] reaches more than 1000000000 m from the origin"},
     {"PhotographWithoutPicture", [](Scene& s) { s.photographs.push_back(photograph(-1)); },
-     "photographs[0].picture: -1 is no index into the 0 pictures"},
+     "photographs[0].picture: -1 is no index into the 1 pictures"},
     {"PhotographParallel",
      [](Scene& s) {
-       s.pictures.push_back(Picture{.name = "p", .file = "p.png"});
        s.photographs.push_back(photograph(0));
        s.photographs[0].projection = Projection::orthographic(1, 1, 0, 10);
      },
      "photographs[0].projection: a photograph's projection must be perspective"},
     {"PhotographMirrored",
      [](Scene& s) {
-       s.pictures.push_back(Picture{.name = "p", .file = "p.png"});
        s.photographs.push_back(photograph(0));
        s.photographs[0].pose.world_from_view_rotation[0] *= -1;
      },
      "photographs[0].pose: its rotation must be right-handed, not mirrored"},
     {"PhotographGain",
      [](Scene& s) {
-       s.pictures.push_back(Picture{.name = "p", .file = "p.png"});
        s.photographs.push_back(photograph(0));
        s.photographs[0].gain.y = 0;
      },
