@@ -33,8 +33,8 @@ enum class Layer : std::uint8_t {
   /// photo.seen: how many photographs see the surface, −1 where nothing is; photo.weight.<name>: each one's share of the
   /// colour; photo.color.<name>.R/G/B: its linear colour before gain, NaN where it does not see the surface
   photographs,
-  object,  ///< id.object: number of the object, −1 where nothing is; names in the metadata
-  passes,  ///< pass.*: the frame buffer after each pass, with Passes::multi
+  object,     ///< id.object: number of the object, −1 where nothing is; names in the metadata
+  passes,     ///< pass.*: the frame buffer after each pass, with Passes::multi
   luminance,  ///< luminance.Y: cd/m² toward the camera, where shading is pbr; otherwise the picture's luminance
   /// pixel_density.<name>: of each projector, pixels per metre of the surface, in the sparser direction.
   pixel_density,

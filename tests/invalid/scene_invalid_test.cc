@@ -75,12 +75,6 @@ constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 Primitive& primitive_of(Scene& scene) { return scene.meshes[0].primitives[0]; }
 
-Picture picture_of(const char* file) {
-  Picture picture;
-  picture.name = picture.file = file;
-  return picture;
-}
-
 Photograph photograph(int picture) {
   Photograph photograph;
   photograph.name = "photo";
@@ -389,21 +383,18 @@ const SceneCase kSceneCases[] = {
      "photographs[0].picture: -1 is no index into the 1 pictures"},
     {"PhotographParallel",
      [](Scene& s) {
-       s.pictures.push_back(picture_of("p.png"));
        s.photographs.push_back(photograph(0));
        s.photographs[0].projection = Projection::orthographic(1, 1, 0, 10);
      },
      "photographs[0].projection: a photograph's projection must be perspective"},
     {"PhotographMirrored",
      [](Scene& s) {
-       s.pictures.push_back(picture_of("p.png"));
        s.photographs.push_back(photograph(0));
        s.photographs[0].pose.world_from_view_rotation[0] *= -1;
      },
      "photographs[0].pose: its rotation must be right-handed, not mirrored"},
     {"PhotographGain",
      [](Scene& s) {
-       s.pictures.push_back(picture_of("p.png"));
        s.photographs.push_back(photograph(0));
        s.photographs[0].gain.y = 0;
      },
