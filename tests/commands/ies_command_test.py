@@ -73,7 +73,7 @@ class IesCommand(unittest.TestCase):
         bad.write_text(ies_text(lambda v: -1), encoding="utf-8")
         done = run("ies", bad)
         self.assertEqual(done.returncode, 3)
-        self.assertIn("bad.ies: line 8: expected candela value 1 of 91", done.stderr)
+        self.assertIn("bad.ies: line 9: expected candela value 1 of 91", done.stderr)
         self.assertEqual(run("ies", self.path / "none.ies").returncode, 3)
         self.assertEqual(run("ies").returncode, 2)
 
