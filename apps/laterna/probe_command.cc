@@ -22,7 +22,7 @@ struct Options {
   std::vector<std::string> points;
   std::string object, rectangle, grid = "10x10", output;
   double spacing = 0;
-  int light_samples = 1;
+  int accumulate = 1;
   bool json = false;
 };
 
@@ -135,7 +135,7 @@ int run_probe(const Options& options) {
   const Result<std::vector<Probe>> probes = place_probes(options, *renderer);
   if (!probes) return report(probes.error());
   const Result<ProbeReport> measured =
-      renderer->measure_probes(*probes, {options.light_samples}, progress_line("measuring"));
+      renderer->measure_probes(*probes, {options.accumulate}, progress_line("measuring"));
   if (!measured) return report(measured.error());
   if (options.json) {
     if (const Result<void> written = write_probes(*probes, *measured, "-"); !written)
@@ -170,7 +170,7 @@ void declare_probe(CLI::App& app, Run& run) {
   command->add_option("--object", o.object, "a grid all over this object, facing outward");
   command->add_option("--spacing", o.spacing, "metres between the object's meters");
   command
-      ->add_option("--light-samples", o.light_samples,
+      ->add_option("--accumulate", o.accumulate,
                    "lamps that have a size: the mean over so many points of them")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();

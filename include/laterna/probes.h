@@ -20,7 +20,7 @@ struct Probe {
 
 struct ProbeSettings {
   /// Lights that have a size are measured as the mean over this many of their points. 1: from their middle. 1…65536.
-  int light_samples = 1;
+  int accumulate = 1;
 };
 
 /// What one meter reads.

@@ -21,7 +21,7 @@ using shadow::SurfaceSamples;
 
 namespace {
 
-constexpr int kMostLightSamples = 65536;
+constexpr int kMostPoints = 65536;
 
 // SurfaceSamples' x, y and q are whatever their ray makes a world point of: here the offsets from `origin` along the
 // world's axes, in units so small that a slide is looked up at a point, not over a pixel's footprint.
@@ -168,9 +168,8 @@ bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite
 }  // namespace
 
 Result<void> check_probes(std::span<const Probe> probes, const ProbeSettings& settings) {
-  if (settings.light_samples < 1 || settings.light_samples > kMostLightSamples) {
-    return refuse(
-        fmt::format("light_samples: expected 1 to {}, got {}", kMostLightSamples, settings.light_samples));
+  if (settings.accumulate < 1 || settings.accumulate > kMostPoints) {
+    return refuse(fmt::format("accumulate: expected 1 to {}, got {}", kMostPoints, settings.accumulate));
   }
   if (probes.size() > kMaxProbes)
     return refuse(fmt::format("{} probes are more than {}", probes.size(), kMaxProbes));
@@ -192,7 +191,7 @@ Result<void> check_probes(std::span<const Probe> probes, const ProbeSettings& se
 }
 
 std::size_t probe_steps(std::span<const Probe> probes, const ProbeSettings& settings) {
-  return (probes.size() + kMaxSamples - 1) / kMaxSamples * static_cast<std::size_t>(settings.light_samples);
+  return (probes.size() + kMaxSamples - 1) / kMaxSamples * static_cast<std::size_t>(settings.accumulate);
 }
 
 ProbeReport measure_probes(const ProbeContext& context, std::span<const Probe> probes,
@@ -205,7 +204,7 @@ ProbeReport measure_probes(const ProbeContext& context, std::span<const Probe> p
   if (probes.empty()) return report;
   const bool has_size = std::any_of(context.frame.lights.begin(), context.frame.lights.end(),
                                     [](const frame::PlacedLight& l) { return light::has_samples(*l.light); });
-  const int points = has_size ? settings.light_samples : 1;
+  const int points = has_size ? settings.accumulate : 1;
   for (int i = 0; i < points && !context.progress.is_cancelled(); ++i)
     measure_once(context, probes, {i, points}, report.readings);
   for (ProbeReading& reading : report.readings) {

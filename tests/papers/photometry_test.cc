@@ -396,15 +396,15 @@ TEST(Photometry, ReadingsAreWrittenForOtherPrograms) {
 TEST(Photometry, FaultyProbesAreRefused) {
   const Renderer renderer = make_renderer(lit_room(false));
   const auto message = [](const auto& result) { return result ? std::string() : to_string(result.error()); };
-  const auto measured = [&](const Probe& probe, int light_samples = 1) {
-    return message(renderer.measure_probes(std::vector<Probe>{probe}, {light_samples}));
+  const auto measured = [&](const Probe& probe, int accumulate = 1) {
+    return message(renderer.measure_probes(std::vector<Probe>{probe}, {accumulate}));
   };
   EXPECT_EQ(measured({{0, 0, 0}, {0, 0, 0}, 0}), "probes[0]: expected a normal of some length, and finite");
   EXPECT_EQ(measured({{NAN, 0, 0}, {0, 1, 0}, 0}),
             "probes[0]: expected a position within 1e+09 m of the origin");
   EXPECT_EQ(measured({{0, 2e9, 0}, {0, 1, 0}, 0}),
             "probes[0]: expected a position within 1e+09 m of the origin");
-  EXPECT_EQ(measured({}, 0), "light_samples: expected 1 to 65536, got 0");
+  EXPECT_EQ(measured({}, 0), "accumulate: expected 1 to 65536, got 0");
   EXPECT_EQ(measured({{0, 0, 0}, {0, 1, 0}, -1}), "probes[0]: expected an area of at least 0, got -1");
   EXPECT_EQ(message(renderer.probes_on_object("flor", 1)),
             "the scene has no object \"flor\": it has \"floor\"");
