@@ -126,7 +126,7 @@ Result<float> parse_exposure(const std::string& text) {
 }
 
 /// Keeps users from wondering at white or black pictures.
-void advise_exposure(const LayeredImage& image, float exposure) {
+void advise_exposure(const LayeredImage& image, float exposure, bool is_automatic) {
   std::size_t seen = 0;
   std::size_t white = 0;
   std::size_t dark = 0;
@@ -142,8 +142,13 @@ void advise_exposure(const LayeredImage& image, float exposure) {
   if (seen == 0) fmt::print(stderr, "laterna: note: nothing of the scene is in the picture\n");
   if (2 * white > seen)
     fmt::print(stderr, "laterna: note: more than half of the picture is over-exposed: try --exposure auto\n");
-  if (seen > 0 && 10 * dark > 9 * seen)
-    fmt::print(stderr, "laterna: note: nearly all of the picture is black: try --exposure auto\n");
+  if (seen > 0 && 10 * dark > 9 * seen) {
+    fmt::print(
+        stderr,
+        "laterna: note: nearly all of the picture is black: try {}--from-light NAME, which shows what a "
+        "lamp's light falls on; films may be dark at this --time\n",
+        is_automatic ? "" : "--exposure auto, or ");
+  }
 }
 
 nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double write_ms) {
@@ -174,8 +179,8 @@ void advise_softness(const Scene& scene, ShadowTechnique for_all) {
     const bool is_wide = light.source.has_size() || light.aperture.radius > 0;
     if (!light.enabled || !is_wide || !is_hard) continue;
     fmt::print(stderr,
-               "laterna: note: light \"{}\" has {}, but its shadows are hard: try --shadows pcss, or "
-               "--accumulate 64\n",
+               "laterna: note: light \"{}\" has {}, but its shadows are hard: try --shadows exact "
+               "--accumulate 64, or --shadows pcss, which is a guess\n",
                light.name, light.source.has_size() ? "a size" : "an aperture");
   }
 }
@@ -243,6 +248,8 @@ class RenderCommand {
     if (has_passes && settings.passes != Passes::multi) return "--layers passes needs --passes multi";
     if (false_color_ && (debug_ || !options_.layers.empty() || !options_.layer_pictures.empty()))
       return "--false-colour takes the picture's place: leave --debug, --layers and --layer-pictures out";
+    if (options_.progressive && !shows_light())
+      return "--progressive is for pictures of light: leave --debug and --false-colour out";
     if (options_.progressive && options_.output == "-")
       return "--progressive and -o - would write several pictures to standard output";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
@@ -284,8 +291,9 @@ class RenderCommand {
     Result<LayeredImage> image = draw_image(renderer, view, settings, exposure, statistics);
     if (!image) return report(image.error());
     if (shows_light()) {
-      if (exposure == 0) exposure = automatic_exposure(*image);
-      if (is_first_ && !keeps_layers(output_)) advise_exposure(*image, exposure);
+      const bool is_automatic = exposure == 0;
+      if (is_automatic) exposure = automatic_exposure(*image);
+      if (is_first_ && !keeps_layers(output_)) advise_exposure(*image, exposure, is_automatic);
     } else {
       exposure = 1;
     }

@@ -4,6 +4,7 @@
 
 #include <CLI/Validators.hpp>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 #include "outcome.h"
@@ -100,10 +101,27 @@ Result<ViewOptions::Size> ViewOptions::parse_size() const {
   return parsed;
 }
 
+namespace {
+
+// A light's view fills the picture, whatever their shapes.
+void advise_shape(const View& light, const ViewOptions::Size& picture) {
+  const Projection& p = light.projection;
+  const double shape = (p.right - p.left) / (p.top - p.bottom);
+  constexpr double kSeen = 0.01;
+  if (std::abs(shape * picture.height / picture.width - 1) < kSeen) return;
+  fmt::print(stderr,
+             "laterna: note: the light's view is stretched to the picture: --size {}x{} keeps its shape\n",
+             std::lround(shape * picture.height), picture.height);
+}
+
+}  // namespace
+
 Result<View> ViewOptions::find(const Renderer& renderer, const Size& picture) const {
   if (!from_light.empty()) {
     if (!camera.empty()) return tl::unexpected(bad_option("--camera and --from-light exclude each other"));
-    return renderer.light_view(from_light);
+    Result<View> view = renderer.light_view(from_light);
+    if (view) advise_shape(*view, picture);
+    return view;
   }
   Result<View> view = renderer.camera_view(camera, picture.width, picture.height);
   if (view || !camera.empty()) return view;

@@ -4,6 +4,9 @@
 
 #include <cstdio>
 
+#include "laterna/technique_choice.h"
+#include "technique_names.h"
+
 namespace laterna::app {
 namespace {
 
@@ -24,8 +27,8 @@ std::vector<std::string> unserved_lights(const Scene& scene, ShadowTechnique tec
 void tell_unserved_lights(const Scene& scene, ShadowTechnique technique) {
   for (const Light& light : scene.lights) {
     if (!is_unserved(light, technique)) continue;
-    fmt::print(stderr, "laterna: note: light \"{}\" keeps shadow technique \"map\": {}\n", light.name,
-               find_fault(technique, light));
+    fmt::print(stderr, "laterna: note: light \"{}\" keeps shadow technique \"{}\": {}\n", light.name,
+               name_of(technique_for(light, technique)), find_fault(technique, light));
   }
 }
 

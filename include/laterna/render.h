@@ -241,7 +241,8 @@ class Renderer {
 float exposure_from_stops(double stops);
 
 /// Factor that brings a picture's log-mean luminance to middle grey (0.18), from its R, G, B and A channels (Reinhard
-/// et al., Photographic tone reproduction for digital images, 2002). 1 for a picture without light or without these channels.
+/// et al., Photographic tone reproduction for digital images, 2002), or less, so that no more than a hundredth of it is
+/// over-exposed: in dark rooms the mean is that of the dark. 1 for a picture without light or without these channels.
 float automatic_exposure(const LayeredImage& image);
 
 }  // namespace laterna

@@ -90,6 +90,11 @@ void Frame::place_lights_and_cameras(const Scene& scene) {
   lights.clear();
   cameras.clear();
   frame::place_lights_and_cameras(scene, world_from_nodes(scene), *this);
+  // Tables of lamps that no light has any more.
+  std::erase_if(lamps, [this](const auto& lamp) {
+    return std::none_of(lights.begin(), lights.end(),
+                        [&](const PlacedLight& placed) { return placed.lamp == lamp.second.get(); });
+  });
 }
 
 std::size_t Frame::triangle_count() const {

@@ -104,15 +104,18 @@ ShadowView widened(ShadowView shadow, int border) {
   return shadow;
 }
 
-// Texels beyond a projector's frame, which its slide reaches where it is out of focus: at tangents up to radius |1/focus −
-// 1/d| more. As many as are reached from half the focal distance on, and a tenth of the frame for what is nearer.
-int focus_border(const PlacedLight& placed, int resolution) {
+// Out of focus a slide reaches beyond its frame, at tangents up to radius |1/focus − 1/d| more, and needs shadows there:
+// as far as from half the focal distance on, and a tenth of the frame for what is nearer. In texels of the same size, unless
+// those are more than a map may have.
+ShadowView widened_for_focus(const PlacedLight& placed, ShadowView shadow) {
   const Aperture& aperture = placed.light->aperture;
-  if (aperture.radius == 0) return 0;
   const Projection& p = placed.view.projection;
   const double blur = aperture.radius / aperture.focal_distance;
   const double share = std::clamp(blur / std::min(p.right - p.left, p.top - p.bottom), 0.1, 0.5);
-  return static_cast<int>(std::ceil(share * resolution));
+  const auto most = static_cast<int>(kMaxShadowResolution / (1 + 2 * share));
+  shadow.width = std::min(shadow.width, most);
+  shadow.height = std::min(shadow.height, most);
+  return widened(shadow, static_cast<int>(std::floor(share * shadow.width)));
 }
 
 std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& frame,
@@ -125,8 +128,7 @@ std::vector<ShadowView> shadow_views(const PlacedLight& placed, const Frame& fra
         return {fit_to_box(placed.pose, box_of_casters(placed.pose, frame), settings.resolution)};
       return {widened({{placed.pose, light.projection}, settings.resolution, settings.resolution}, border)};
     case LightType::projector:
-      return {widened({placed.view, settings.resolution, settings.resolution},
-                      border + focus_border(placed, settings.resolution))};
+      return {widened({placed.view, settings.resolution, settings.resolution}, border)};
     case LightType::spot: {
       const double half_angle = light.outer_cone.in_degrees();
       if (shines_all_round(light)) break;
@@ -206,6 +208,9 @@ LightPlan make_light_plan(const Frame& frame, const PlanSettings& plan_settings)
     if (planned.technique == ShadowTechnique::map && planned.settings.warp != ShadowWarp::none) {
       planned.shadow_views = {
           light_space_perspective_view(*planned.placed, frame, planned.settings, plan_settings.camera)};
+    }
+    if (planned.placed->light->aperture.radius > 0) {
+      for (ShadowView& shadow : planned.shadow_views) shadow = widened_for_focus(*planned.placed, shadow);
     }
     plan.lights.push_back(std::move(planned));
   }

@@ -8,6 +8,7 @@
 
 #include "base/elementary.h"
 #include "base/output_file.h"
+#include "base/refuse.h"
 
 namespace laterna {
 namespace {
@@ -111,6 +112,8 @@ std::string polar_plot_svg(const LightDistribution& distribution) {
 }
 
 Result<void> write_polar_plot(const LightDistribution& distribution, const std::filesystem::path& file) {
+  if (file.extension() != ".svg")
+    return refuse("polar diagram " + file.string() + ": expected a name that ends in .svg");
   const std::string svg = polar_plot_svg(distribution);
   return write_file(file, std::as_bytes(std::span(svg)));
 }

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/elementary.h"
 #include "laterna/render.h"
@@ -17,19 +19,24 @@ float automatic_exposure(const LayeredImage& image) {
     return 1;
   constexpr double kMiddleGrey = 0.18;
   constexpr double kLeast = 1e-6;  // keeps black from deciding the mean
+  // Share of the picture. In a dark room the mean is that of the dark, and what is lit would be lost.
+  constexpr double kMayBeWhite = 0.01;
   double sum = 0;
-  std::int64_t count = 0;
+  std::vector<float> brightest;
   for (std::size_t i = 0; i < pixels; ++i) {
     if (a != nullptr && a->values[i] <= 0) continue;
     const double luminance = 0.2126 * r->values[i] + 0.7152 * g->values[i] + 0.0722 * b->values[i];
     if (!std::isfinite(luminance)) continue;
     sum += logarithm2(kLeast + std::max(luminance, 0.0));
-    ++count;
+    brightest.push_back(std::max({r->values[i], g->values[i], b->values[i]}));
   }
-  if (count == 0) return 1;
-  const double mean = exponential2(sum / static_cast<double>(count));
+  if (brightest.empty()) return 1;
+  const double mean = exponential2(sum / static_cast<double>(brightest.size()));
   if (mean <= 2 * kLeast) return 1;
-  return static_cast<float>(kMiddleGrey / mean);
+  const auto white = brightest.begin() + static_cast<std::ptrdiff_t>(
+                                             (1 - kMayBeWhite) * static_cast<double>(brightest.size() - 1));
+  std::nth_element(brightest.begin(), white, brightest.end());
+  return static_cast<float>(std::min(kMiddleGrey / mean, 1 / static_cast<double>(*white)));
 }
 
 float exposure_from_stops(double stops) { return static_cast<float>(exponential2(stops)); }

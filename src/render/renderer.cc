@@ -619,10 +619,14 @@ Result<View> Renderer::light_view(const std::string& name) const {
 }
 
 Result<const frame::PlacedLight*> Renderer::Implementation::find_projector(const std::string& name) const {
+  std::string names;
   for (const frame::PlacedLight& placed : frame.lights) {
-    if (placed.light->name == name && placed.light->type == LightType::projector) return &placed;
+    if (placed.light->type != LightType::projector) continue;
+    if (placed.light->name == name) return &placed;
+    names += (names.empty() ? "\"" : ", \"") + placed.light->name + "\"";
   }
-  return refuse("the scene has no projector \"" + name + "\" that is turned on");
+  return refuse("the scene has no projector \"" + name +
+                "\" that is on: " + (names.empty() ? "it has none" : "it has " + names));
 }
 
 Result<std::optional<glm::dvec2>> Renderer::slide_from_world(const std::string& projector,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/elementary.h"
+#include "image/numbered_files.h"
 #include "laterna/film.h"
 #include "laterna/image.h"
 #include "laterna/lamps.h"
@@ -343,6 +344,10 @@ class LightReader {
       picture.file = std::move(*path);
     } else if (is_numbered(*name)) {
       picture.file = folder_ / *name;
+      if (const auto numbered = image::find_numbered_files(picture.file); !numbered) {
+        object_.error("film", to_string(numbered.error()));
+        return -1;
+      }
     } else {
       object_.error("film", path.error());
       return -1;

@@ -315,6 +315,8 @@ void Validator::check_photograph(const Photograph& photograph, const std::string
   if (photograph.picture < 0 || static_cast<std::size_t>(photograph.picture) >= scene_.pictures.size()) {
     fault(place + ".picture",
           fmt::format("{} is no index into the {} pictures", photograph.picture, scene_.pictures.size()));
+  } else if (scene_.pictures[static_cast<std::size_t>(photograph.picture)].film) {
+    fault(place + ".picture", "is a film: only slides may change with time");
   }
   if (std::string message = find_fault(photograph.projection); !message.empty()) {
     fault(place + ".projection", std::move(message));
@@ -351,6 +353,16 @@ void Validator::check_light(const Light& light, const std::string& place) {
     check_number(place + ".lumens", *light.lumens, 0, kEndless);
     if (light.type == LightType::directional)
       fault(place + ".lumens", "a directional light's brightness is not given in lumens");
+    // Candela are lumens by solid angle.
+    constexpr double kMaxLumens = 1e18;
+    if (std::isfinite(brightest) && *light.lumens * brightest > kMaxLumens)
+      fault(place + ".lumens",
+            fmt::format("{} times the colour's {} is more than {}", *light.lumens, brightest, kMaxLumens));
+    constexpr double kNarrowest = 0.01;
+    if (light.type == LightType::spot && light.outer_cone.in_degrees() < kNarrowest) {
+      fault(place + ".outer_cone", fmt::format("expected at least {} degrees of a light in lumens, got {}",
+                                               kNarrowest, light.outer_cone.in_degrees()));
+    }
   }
   check_distribution(light, place + ".distribution");
   if (!(light.range > 0))

@@ -381,6 +381,23 @@ const SceneCase kSceneCases[] = {
      "nodes[0]: meshes[0] reaches more than 1000000000 m from the origin"},
     {"PhotographWithoutPicture", [](Scene& s) { s.photographs.push_back(photograph(-1)); },
      "photographs[0].picture: -1 is no index into the 1 pictures"},
+    {"PhotographThatIsAFilm",
+     [](Scene& s) {
+       s.pictures[0].film.emplace();
+       s.photographs.push_back(photograph(0));
+       s.materials[0].base_color_texture.picture = -1;
+     },
+     "photographs[0].picture: is a film: only slides may change with time"},
+    {"NarrowSpotInLumens",
+     [](Scene& s) {
+       s.lights[0].type = LightType::spot;
+       s.lights[0].inner_cone = Angle::degrees(0);
+       s.lights[0].outer_cone = Angle::degrees(1e-3);
+       s.lights[0].lumens = 100;
+     },
+     "lights[0].outer_cone: expected at least 0.01 degrees of a light in lumens, got 0.001"},
+    {"LumensOfAWhiteHole", [](Scene& s) { s.lights[1].lumens = 1e20; },
+     "lights[1].lumens: 1e+20 times the colour's 1 is more than 1e+18"},
     {"PhotographParallel",
      [](Scene& s) {
        s.photographs.push_back(photograph(0));

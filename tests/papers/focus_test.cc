@@ -252,6 +252,23 @@ TEST(Focus, ShadowsOfAWideLensAreSoft) {
 }
 
 // All instruction sets and any number of threads draw the same, by discs and from points; a lens that is shut costs nothing.
+// Maps reach beyond the frame, for shadows in what is blurred out of it; what is said of the projector does not change.
+TEST(Focus, OnlyMapsReachBeyondTheFrame) {
+  Scene scene;
+  add_object(scene, "wall", wall(20, 20, 0));
+  Light light = projector("projector", 0.5, 0.5);
+  light.aperture = {kRadius, 0.2};
+  light.shadow.resolution = kMaxShadowResolution;
+  add_light(scene, light, {0, 0, 6}, {0, 0, 0});
+  const Renderer renderer = make_renderer(scene);
+  const View frame = renderer.light_view("projector").value();
+  EXPECT_NEAR(frame.projection.right, 0.5, 1e-12);
+  EXPECT_EQ(renderer.depth_map_views("projector")->at(0).width, kMaxShadowResolution);
+  const ShadowMapView map = renderer.shadow_map_views("projector", frame, test_settings(16, 16))->at(0);
+  EXPECT_GT(map.view.projection.right, 0.6);
+  EXPECT_LE(map.width, kMaxShadowResolution);
+}
+
 TEST(Focus, IsTheSameForEveryone) {
   for (const Outside outside : {Outside::black, Outside::repeat}) {
     Scene scene = pattern_on_wall(6);

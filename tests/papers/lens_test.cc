@@ -368,7 +368,7 @@ TEST(Lens, InspectTellsTheDistortedPlaceAndTheWayBack) {
   EXPECT_FALSE(behind.slide);
   EXPECT_FALSE(behind.is_ahead);
   EXPECT_EQ(to_string(renderer.world_from_slide("sun", {0, 0}, 1).error()),
-            "the scene has no projector \"sun\" that is turned on");
+            "the scene has no projector \"sun\" that is on: it has \"lantern\"");
 }
 
 // The depth map of a lens's light reaches over the whole picture that it throws.

@@ -594,6 +594,13 @@ TEST(Conventions, C8_AutomaticExposureBringsTheLogMeanToMiddleGrey) {
   for (const char* name : {"R", "G", "B"}) image.channels.push_back({name, {0.18F, 0.72F}});
   image.channels.push_back({"A", {1, 1}});
   EXPECT_NEAR(automatic_exposure(image), 0.5, 1e-3);
+  // A dark room with a lamp's light on a twentieth of it, which is not to be lost.
+  image.width = 100;
+  for (Channel& channel : image.channels) {
+    channel.values.assign(100, channel.name == "A" ? 1.0F : 0.001F);
+    if (channel.name != "A") std::fill_n(channel.values.begin(), 5, 8.0F);
+  }
+  EXPECT_NEAR(automatic_exposure(image), 1.0 / 8, 1e-6);
 }
 
 // ------------------------------------------------------------------------------------------------ layers
