@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "laterna/film.h"
+#include "numbered_name.h"
 #include "scene_options.h"
 
 namespace laterna::app {
@@ -59,31 +60,6 @@ Result<FrameRate> parse_rate(const std::string& text) {
       "--fps: expected frames per second greater than 0, such as 25 or 30000/1001, got \"{}\"", text)));
 }
 
-/// The file with a number in place of the run of # in its name.
-struct NumberedName {
-  std::string before, after;
-  std::size_t digits;
-  [[nodiscard]] std::string with(std::int64_t number) const {
-    return fmt::format("{}{:0{}}{}", before, number, digits, after);
-  }
-};
-
-Result<NumberedName> parse_name(const std::string& output) {
-  const std::size_t begin = output.find('#');
-  if (begin == std::string::npos) {
-    return tl::unexpected(bad_option(fmt::format(
-        "--frames: the output needs # where the frame's number goes, such as out.####.png, got \"{}\"",
-        output)));
-  }
-  const std::size_t found = output.find_first_not_of('#', begin);
-  const std::size_t end = found == std::string::npos ? output.size() : found;
-  if (output.find('#', end) != std::string::npos || output.find('/', begin) != std::string::npos) {
-    return tl::unexpected(bad_option(
-        fmt::format("--frames: expected one run of # in the name of the output file, got \"{}\"", output)));
-  }
-  return NumberedName{output.substr(0, begin), output.substr(end), end - begin};
-}
-
 }  // namespace
 
 void TimeOptions::declare(CLI::App& command) {
@@ -105,7 +81,7 @@ Result<std::vector<TimedOutput>> TimeOptions::outputs(const std::string& output)
   if (!range) return tl::unexpected(range.error());
   const Result<FrameRate> rate = parse_rate(fps);
   if (!rate) return tl::unexpected(rate.error());
-  const Result<NumberedName> name = parse_name(output);
+  const Result<NumberedName> name = NumberedName::parse("--frames", output);
   if (!name) return tl::unexpected(name.error());
   std::vector<TimedOutput> outputs;
   for (std::int64_t k = range->first; k <= range->last; ++k) {

@@ -9,10 +9,12 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "camera_path.h"
 #include "laterna/measure.h"
 #include "laterna/photograph_files.h"
+#include "numbered_name.h"
 #include "outcome.h"
 #include "progress_line.h"
 #include "scene_options.h"
@@ -49,15 +51,6 @@ Result<glm::vec3> parse_color(const std::string& text) {
   return c;
 }
 
-// "frame.####.png" and 7: "frame.0007.png".
-std::string numbered(const std::string& pattern, int number) {
-  const std::size_t first = pattern.find('#');
-  if (first == std::string::npos) return pattern;
-  const std::size_t end = pattern.find_first_not_of('#', first);
-  const std::size_t count = (end == std::string::npos ? pattern.size() : end) - first;
-  return pattern.substr(0, first) + fmt::format("{:0{}}", number, count) + pattern.substr(first + count);
-}
-
 int index_of(const std::vector<Photograph>& photographs, const std::string& name) {
   for (std::size_t i = 0; i < photographs.size(); ++i) {
     if (photographs[i].name == name) return static_cast<int>(i);
@@ -87,7 +80,12 @@ class PhotoCommand {
     if (!size) return report(size.error());
     size_ = *size;
     if (const std::string fault = find_usage_fault(); !fault.empty()) return report(bad_option(fault));
-    for (const std::string& file : {numbered(o_.output, 1), o_.mask}) {
+    if (!o_.fly.empty()) {
+      Result<NumberedName> name = NumberedName::parse("--fly", o_.output);
+      if (!name) return report(name.error());
+      name_ = std::move(*name);
+    }
+    for (const std::string& file : {name_ ? name_->with(1) : o_.output, o_.mask}) {
       if (file.empty()) continue;
       if (Result<void> writable = check_image_output(file); !writable) return report(writable.error());
     }
@@ -107,8 +105,6 @@ class PhotoCommand {
  private:
   [[nodiscard]] std::string find_usage_fault() const {
     const bool flies = !o_.fly.empty();
-    if (flies && o_.output.find('#') == std::string::npos)
-      return "--fly draws many frames: give an output such as frame.####.png";
     if (!flies && o_.output.find('#') != std::string::npos) return "a numbered output needs --fly";
     if (flies && (!o_.from.empty() || !o_.view.camera.empty())) return "--fly excludes --from and --camera";
     if (!o_.from.empty() && !o_.view.camera.empty()) return "--from and --camera exclude each other";
@@ -241,7 +237,7 @@ class PhotoCommand {
       const View view = view_on_path(stops, along * static_cast<double>(stops.size() - 1));
       Result<LayeredImage> image = renderer.render(view, settings);
       if (!image) return tl::unexpected(image.error());
-      if (Result<void> written = write(*image, numbered(o_.output, frames_ + 1)); !written) return written;
+      if (Result<void> written = write(*image, name_->with(frames_ + 1)); !written) return written;
       if (progress) progress(static_cast<double>(frames_ + 1) / o_.frames);
     }
     return {};
@@ -295,7 +291,8 @@ class PhotoCommand {
 
   const PhotoOptions& o_;
   ViewOptions::Size size_{};
-  std::vector<Photograph> all_;  // also those that --only leaves out
+  std::vector<Photograph> all_;       // also those that --only leaves out
+  std::optional<NumberedName> name_;  // of --fly's frames
   int frames_ = 0;
   double unseen_percent_ = 0;
 };

@@ -172,7 +172,7 @@ void declare_probe(CLI::App& app, Run& run) {
   command
       ->add_option("--accumulate", o.accumulate,
                    "lamps that have a size: the mean over so many points of them")
-      ->check(CLI::Range(1, 65536))
+      ->check(CLI::Range(1, kMaxAccumulated))
       ->capture_default_str();
   command->add_option("-o,--output", o.output,
                       ".csv or .json with every reading; - is JSON to standard output");

@@ -411,7 +411,7 @@ void declare_picture_options(CLI::App& command, RenderOptions& o) {
           "--accumulate", o.accumulate,
           "the mean of so many pictures, which sample pixels at other places, are lit from other points\n"
           "of lights with a size, and through other points of projectors' lenses; best with --shadows exact")
-      ->check(CLI::Range(1, 65536))
+      ->check(CLI::Range(1, kMaxAccumulated))
       ->capture_default_str();
   command.add_flag("--progressive", o.progressive,
                    "write the output after 1, 2, 4, 8, … accumulated pictures already");

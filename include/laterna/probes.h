@@ -19,7 +19,7 @@ struct Probe {
 };
 
 struct ProbeSettings {
-  /// Lights that have a size are measured as the mean over this many of their points. 1: from their middle. 1…65536.
+  /// Lights that have a size are measured as the mean over this many of their points. 1: from their middle. 1…kMaxAccumulated.
   int accumulate = 1;
 };
 

@@ -47,6 +47,9 @@ struct LayerDescription {
 };
 std::span<const LayerDescription> list_layers();
 
+/// Pictures of one mean.
+inline constexpr int kMaxAccumulated = 65536;
+
 struct RenderSettings {
   int width = 1280, height = 720;  ///< 1…16384 each
   int samples = 1;                 ///< per pixel: 1, 2, 4, 8 or 16
@@ -57,7 +60,7 @@ struct RenderSettings {
   int anisotropy = 8;  ///< most probes of a stretched texture footprint, 1…16
   std::vector<Layer> layers;
   /// The picture is the mean of this many, which differ in where they sample each pixel, from where on a light with a size it
-  /// shines, and through which point of its lens a projector throws its slide. 1: one, from the middle of all. 1…65536.
+  /// shines, and through which point of its lens a projector throws its slide. 1: one, from the middle of all. 1…kMaxAccumulated.
   int accumulate = 1;
   /// No more pictures than it takes for this estimated noise, a fraction of the mean luminance. 0: all.
   double noise = 0;

@@ -5,6 +5,7 @@
 
 #include "base/elementary.h"
 #include "frame/lamp_table.h"
+#include "image/luminance.h"
 
 namespace laterna::frame {
 namespace {
@@ -107,7 +108,7 @@ double solid_angle_of_map(const image::MipChain& map, const Projection& p) {
     for (int x = 0; x < size.width; ++x) {
       const double left = p.left + x * width;
       const std::array<float, 4> value = image::texel(map, level, x, y);
-      const double luminance = 0.2126 * value[0] + 0.7152 * value[1] + 0.0722 * value[2];
+      const double luminance = image::luminance<double>(value[0], value[1], value[2]);
       sum += luminance * solid_angle({false, left, left + width, top - height, top, 1, 2});
     }
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/elementary.h"
+#include "image/luminance.h"
 
 namespace laterna {
 namespace {
@@ -62,7 +63,7 @@ glm::dvec3 linear_color(double kelvin) {
   glm::dvec3 color = rec709_from_xyz(xyz_of_temperature(std::clamp(kelvin, kLeastKelvin, kMostKelvin)));
   for (int i = 0; i < 3; ++i) color[i] = std::max(color[i], 0.0);
   // The weights of layer lux.
-  return color / (0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z);
+  return color / image::luminance(color.x, color.y, color.z);
 }
 
 // Conversions as Lee and Rosco print them on their swatches.

@@ -10,6 +10,7 @@
 
 #include "base/elementary.h"
 #include "base/refuse.h"
+#include "image/luminance.h"
 #include "image/text_drawing.h"
 
 namespace laterna {
@@ -169,7 +170,7 @@ class FalseColorDrawing {
     if (!std::isfinite(v)) return linear(kNothing);
     const Rgb color = color_at(v / maximum_);
     if (!settings_.iso_lines || !is_on_iso_line(x, y)) return color;
-    const bool is_dark = 0.2126F * color[0] + 0.7152F * color[1] + 0.0722F * color[2] < 0.12F;
+    const bool is_dark = image::luminance(color[0], color[1], color[2]) < 0.12F;
     return is_dark ? Rgb{0.6F, 0.6F, 0.6F} : Rgb{0, 0, 0};
   }
 

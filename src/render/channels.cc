@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "image/luminance.h"
+
 namespace laterna {
 namespace {
 
@@ -65,7 +67,7 @@ class ChannelList {
                          [](const TileResult& tile, TilePlane& buffer) -> const TilePlane* {
                            const TileColor& c = tile.beauty;
                            for (std::size_t i = 0; i < buffer.size(); ++i)
-                             buffer[i] = 0.2126F * c.r[i] + 0.7152F * c.g[i] + 0.0722F * c.b[i];
+                             buffer[i] = image::luminance(c.r[i], c.g[i], c.b[i]);
                            return &buffer;
                          },
                          true});

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/elementary.h"
+#include "image/luminance.h"
 #include "laterna/render.h"
 
 namespace laterna {
@@ -25,7 +26,7 @@ float automatic_exposure(const LayeredImage& image) {
   std::vector<float> brightest;
   for (std::size_t i = 0; i < pixels; ++i) {
     if (a != nullptr && a->values[i] <= 0) continue;
-    const double luminance = 0.2126 * r->values[i] + 0.7152 * g->values[i] + 0.0722 * b->values[i];
+    const double luminance = image::luminance<double>(r->values[i], g->values[i], b->values[i]);
     if (!std::isfinite(luminance)) continue;
     sum += logarithm2(kLeast + std::max(luminance, 0.0));
     brightest.push_back(std::max({r->values[i], g->values[i], b->values[i]}));

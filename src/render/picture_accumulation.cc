@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/luminance.h"
 #include "raster/triangle_bins.h"
 #include "render/picture_writer.h"
 
@@ -64,7 +65,7 @@ void PictureAccumulation::add() {
   const float sign = count_ % 2 == 0 ? 1.0F : -1.0F;
   const Plane &r = slot("R").picture, &g = slot("G").picture, &b = slot("B").picture;
   for (std::size_t k = 0; k < pixels_; ++k) {
-    const float luminance = 0.2126F * r[k] + 0.7152F * g[k] + 0.0722F * b[k];
+    const float luminance = image::luminance(r[k], g[k], b[k]);
     alternating_[k] += sign * luminance;
     luminance_ += static_cast<double>(luminance);
   }

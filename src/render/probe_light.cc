@@ -21,8 +21,6 @@ using shadow::SurfaceSamples;
 
 namespace {
 
-constexpr int kMostPoints = 65536;
-
 // SurfaceSamples' x, y and q are whatever their ray makes a world point of: here the offsets from `origin` along the
 // world's axes, in units so small that a slide is looked up at a point, not over a pixel's footprint.
 constexpr double kUnit = 1.0 / (1 << 20);
@@ -168,8 +166,8 @@ bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite
 }  // namespace
 
 Result<void> check_probes(std::span<const Probe> probes, const ProbeSettings& settings) {
-  if (settings.accumulate < 1 || settings.accumulate > kMostPoints) {
-    return refuse(fmt::format("accumulate: expected 1 to {}, got {}", kMostPoints, settings.accumulate));
+  if (settings.accumulate < 1 || settings.accumulate > kMaxAccumulated) {
+    return refuse(fmt::format("accumulate: expected 1 to {}, got {}", kMaxAccumulated, settings.accumulate));
   }
   if (probes.size() > kMaxProbes)
     return refuse(fmt::format("{} probes are more than {}", probes.size(), kMaxProbes));

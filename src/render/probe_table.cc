@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "base/json_text.h"
 #include "base/output_file.h"
 #include "base/refuse.h"
 #include "laterna/probes.h"
@@ -25,16 +26,6 @@ std::string csv_field(const std::string& value) {
   if (value.find_first_of(",\"\r\n") == std::string::npos) return value;
   std::string quoted = "\"";
   for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-std::string json_string(const std::string& value) {
-  std::string quoted = "\"";
-  for (const char c : value) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += code < 0x20 ? fmt::format("\\u{:04x}", static_cast<unsigned>(code)) : std::string(1, c);
-  }
   return quoted + "\"";
 }
 

@@ -569,15 +569,28 @@ Result<int> Renderer::set_time(double seconds) {
 
 double Renderer::time() const { return implementation_->time; }
 
+namespace {
+
+/// Says which there are. `light_of(item)`: the light, or null where it is not what is missed.
+template <class Items, class LightOf>
+tl::unexpected<Error> refuse_missing(const std::string& missed, const Items& items, LightOf light_of) {
+  std::string names;
+  for (const auto& item : items) {
+    const Light* light = light_of(item);
+    if (light != nullptr) names += (names.empty() ? "\"" : ", \"") + light->name + "\"";
+  }
+  return refuse("the scene has no " + missed + ": " + (names.empty() ? "it has none" : "it has " + names));
+}
+
+}  // namespace
+
 Result<light::PlannedLight> Renderer::Implementation::find_light(light::LightPlan plan,
                                                                  const std::string& name) {
-  std::string names;
   for (light::PlannedLight& planned : plan.lights) {
     if (planned.placed->light->name == name) return std::move(planned);
-    names += (names.empty() ? "\"" : ", \"") + planned.placed->light->name + "\"";
   }
-  return refuse("the scene has no light \"" + name +
-                "\": " + (names.empty() ? "it has none" : "it has " + names));
+  return refuse_missing("light \"" + name + "\"", plan.lights,
+                        [](const light::PlannedLight& planned) { return planned.placed->light; });
 }
 
 Result<light::PlannedLight> Renderer::Implementation::planned_light(const std::string& name) const {
@@ -619,14 +632,14 @@ Result<View> Renderer::light_view(const std::string& name) const {
 }
 
 Result<const frame::PlacedLight*> Renderer::Implementation::find_projector(const std::string& name) const {
-  std::string names;
+  const auto projector_of = [](const frame::PlacedLight& placed) {
+    return placed.light->type == LightType::projector ? placed.light : nullptr;
+  };
   for (const frame::PlacedLight& placed : frame.lights) {
-    if (placed.light->type != LightType::projector) continue;
-    if (placed.light->name == name) return &placed;
-    names += (names.empty() ? "\"" : ", \"") + placed.light->name + "\"";
+    const Light* projector = projector_of(placed);
+    if (projector != nullptr && projector->name == name) return &placed;
   }
-  return refuse("the scene has no projector \"" + name +
-                "\" that is on: " + (names.empty() ? "it has none" : "it has " + names));
+  return refuse_missing("projector \"" + name + "\" that is on", frame.lights, projector_of);
 }
 
 Result<std::optional<glm::dvec2>> Renderer::slide_from_world(const std::string& projector,

@@ -63,9 +63,8 @@ Result<void> check_settings(const RenderSettings& settings, const View& view) {
     if (std::ranges::find(list_layers(), layer, &LayerDescription::layer) == list_layers().end())
       return refuse("the settings ask for a layer that there is not");
   }
-  constexpr int kMostPictures = 65536;
-  if (settings.accumulate < 1 || settings.accumulate > kMostPictures) {
-    return refuse("pictures to accumulate must be from 1 to " + std::to_string(kMostPictures) + ", not " +
+  if (settings.accumulate < 1 || settings.accumulate > kMaxAccumulated) {
+    return refuse("pictures to accumulate must be from 1 to " + std::to_string(kMaxAccumulated) + ", not " +
                   std::to_string(settings.accumulate));
   }
   if (!(settings.noise >= 0 && settings.noise < 1)) {

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include "laterna/lamps.h"
 #include "scene/spelling.h"
+#include "scene/text_numbers.h"
 
 namespace laterna {
 namespace {
@@ -25,13 +24,7 @@ constexpr std::size_t kLongestShown = 40;
 std::optional<double> parse_number(std::string_view text, bool allow_comma) {
   std::string with_point(text);
   if (allow_comma) std::replace(with_point.begin(), with_point.end(), ',', '.');
-  const char* first = with_point.data();
-  const char* last = first + with_point.size();
-  if (first != last && *first == '+' && first + 1 != last && first[1] != '-') ++first;
-  double value = 0;
-  const auto [end, error] = std::from_chars(first, last, value);
-  if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-  return value;
+  return number_of(with_point);
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/json_text.h"
 #include "scene/spelling.h"
 #include "scene/text_numbers.h"
 
@@ -36,19 +37,6 @@ std::string_view without_comment(std::string_view text) {
     }
   }
   return text;
-}
-
-std::string json_string(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < 0x20) {
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + '"';
 }
 
 std::string json_scalar(std::string_view plain) {

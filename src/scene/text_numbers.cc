@@ -41,7 +41,7 @@ std::string_view rest_after_words(std::string_view line, std::size_t count) {
 }
 
 std::optional<double> number_of(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   double value = 0;
   const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (fault != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;

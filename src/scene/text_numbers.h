@@ -26,7 +26,7 @@ class TextLines {
 std::vector<std::string_view> words_of(std::string_view line);
 /// What is behind the first `count` words, without spaces at its ends.
 std::string_view rest_after_words(std::string_view line, std::size_t count);
-/// The whole word as a finite number.
+/// The whole word as a finite number in C's notation, with a + before it or not.
 std::optional<double> number_of(std::string_view word);
 
 }  // namespace laterna

@@ -74,7 +74,7 @@ class PhotoCommand(unittest.TestCase):
 
     def test_bad_requests_and_bad_files_are_told_apart(self):
         for arguments, code, message in (
-            (["-o", "x.png", "--fly", "all"], 2, "--fly draws many frames: give an output such as frame.####.png"),
+            (["-o", "x.png", "--fly", "all"], 2, "--fly: the output needs # where the frame's number goes, such as"),
             (["-o", "x.png", "--from", "c"], 2, '--from: there is no photograph "c"; there are "a.png", "b.png"'),
             (["-o", "x.png", "--unseen", "red"], 2, '--unseen: expected R,G,B in linear light, got "red"'),
             (["-o", "nowhere/x.png", "--from", "a"], 4, "nowhere"),
