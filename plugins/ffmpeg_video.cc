@@ -1,4 +1,4 @@
-// The video plug-in: films by FFmpeg's libraries. It is a library of its own because loading them costs 36 ms, which who
+// The video plug-in: films read by FFmpeg's libraries (writing them: ffmpeg_output.cc). It is a library of its own because loading them costs 36 ms, which who
 // shows no video should not pay. It finds every frame's time first, without decoding, so that a frame has a number, and then
 // decodes frames by number. Pixels leave as they were decoded; colour is the library's affair (image/video_colour).
 #include <algorithm>
@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "ffmpeg_calls.h"
+#include "ffmpeg_output.h"
 #include "image/video_interface.h"
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/imgutils.h>
 #include <libavutil/log.h>
 #include <libavutil/pixdesc.h>
@@ -25,29 +25,10 @@ extern "C" {
 
 namespace {
 
+using namespace laterna_ffmpeg;
+
 // A film further ahead than this is jumped to, where there is a key frame to start from.
 constexpr std::size_t kShortWay = 16;
-
-// Caught where the plug-in's calls end.
-struct Fault : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-std::string describe(int error) {
-  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  av_strerror(error, text.data(), text.size());
-  return text.data();
-}
-
-void require(int status, const char* doing) {
-  if (status < 0) throw Fault(std::string(doing) + ": " + describe(status));
-}
-
-template <class T>
-T* require(T* pointer) {
-  if (pointer == nullptr) throw std::bad_alloc();
-  return pointer;
-}
 
 // What a file claims may be no value of the enumeration.
 template <class Enumeration>
@@ -57,15 +38,6 @@ int code_of(const Enumeration& claimed) {
   std::memcpy(&code, &claimed, sizeof(code));
   return code;
 }
-
-struct Free {
-  void operator()(AVFormatContext* p) const { avformat_close_input(&p); }
-  void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
-  void operator()(AVFrame* p) const { av_frame_free(&p); }
-  void operator()(AVPacket* p) const { av_packet_free(&p); }
-};
-template <class T>
-using Owned = std::unique_ptr<T, Free>;
 
 // One packet, which becomes one frame.
 struct Entry {
@@ -427,20 +399,6 @@ class Film {
   std::vector<std::uint8_t> rgba_;
 };
 
-// What was thrown, as a message.
-template <class Work>
-bool caught(Work work, char* message, std::size_t message_size) {
-  try {
-    work();
-    return true;
-  } catch (const std::bad_alloc&) {
-    std::snprintf(message, message_size, "not enough memory for the film");
-  } catch (const std::exception& fault) {
-    std::snprintf(message, message_size, "%s", fault.what());
-  }
-  return false;
-}
-
 LaternaVideoFilm* open_film(const char* file, std::size_t most_frames, std::int64_t most_pixels,
                             LaternaVideoInfo* info, char* message, std::size_t message_size) {
   Film* film = nullptr;
@@ -474,8 +432,16 @@ std::string versions() {
 
 extern "C" __attribute__((visibility("default"))) const LaternaVideoPlugin* laterna_video_plugin() {
   static const std::string kVersions = versions();
-  static const LaternaVideoPlugin kPlugin = {kVideoInterface, kVersions.c_str(), open_film, read_frame,
-                                             close_film};
+  static const LaternaVideoPlugin kPlugin = [] {
+    LaternaVideoPlugin plugin = {};
+    plugin.interface_number = kVideoInterface;
+    plugin.versions = kVersions.c_str();
+    plugin.open = open_film;
+    plugin.read = read_frame;
+    plugin.close = close_film;
+    add_output(plugin);
+    return plugin;
+  }();
   // What is wrong is said once, by us.
   av_log_set_level(AV_LOG_QUIET);
   return &kPlugin;

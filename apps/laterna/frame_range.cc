@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <optional>
 
 #include "laterna/film.h"
@@ -68,7 +69,8 @@ void TimeOptions::declare(CLI::App& command) {
   command
       .add_option(
           "--frames", frames,
-          "FIRST:LAST, both included: a picture for each; -o needs # where the number goes: out.####.png")
+          "FIRST:LAST, both included: a picture for each, where -o needs # in place of the number, as in\n"
+          "out.####.png; or a frame of the film that -o names")
       ->excludes(one);
   command.add_option("--fps", fps, "of --frames: frame k is at k/fps seconds; 30000/1001 is understood")
       ->needs("--frames")
@@ -81,8 +83,12 @@ Result<std::vector<TimedOutput>> TimeOptions::outputs(const std::string& output)
   if (!range) return tl::unexpected(range.error());
   const Result<FrameRate> rate = parse_rate(fps);
   if (!rate) return tl::unexpected(rate.error());
-  const Result<NumberedName> name = NumberedName::parse("--frames", output);
-  if (!name) return tl::unexpected(name.error());
+  std::optional<NumberedName> name;
+  if (!is_video_output(output)) {
+    Result<NumberedName> parsed = NumberedName::parse("--frames", output);
+    if (!parsed) return tl::unexpected(parsed.error());
+    name = std::move(*parsed);
+  }
   std::vector<TimedOutput> outputs;
   for (std::int64_t k = range->first; k <= range->last; ++k) {
     const double seconds = static_cast<double>(k) * rate->denominator / rate->numerator;
@@ -90,9 +96,29 @@ Result<std::vector<TimedOutput>> TimeOptions::outputs(const std::string& output)
       return tl::unexpected(bad_option(fmt::format(
           "--frames: frame {} would be at {:g} s; scenes last at most {:g} s", k, seconds, kMaxSceneTime)));
     }
-    outputs.push_back({seconds, name->with(k)});
+    outputs.push_back({seconds, name ? name->with(k) : output});
   }
   return outputs;
+}
+
+Result<VideoRate> TimeOptions::video_rate() const {
+  const Result<FrameRate> rate = parse_rate(fps);
+  if (!rate) return tl::unexpected(rate.error());
+  // What was typed with up to six decimals is a ratio of whole numbers.
+  for (double scale = 1; scale <= 1e6; scale *= 10) {
+    const double numerator = rate->numerator * scale, denominator = rate->denominator * scale;
+    constexpr double kMost = 2147483647;
+    if (numerator > kMost || denominator > kMost) break;
+    if (std::abs(numerator - std::round(numerator)) > 1e-9 * numerator ||
+        std::abs(denominator - std::round(denominator)) > 1e-9 * denominator) {
+      continue;
+    }
+    const auto n = static_cast<int>(std::lround(numerator)), d = static_cast<int>(std::lround(denominator));
+    const int common = std::gcd(n, d);
+    return VideoRate{n / common, d / common};
+  }
+  return tl::unexpected(bad_option(
+      fmt::format("--fps: a film's rate is a ratio of whole numbers, such as 30000/1001, got \"{}\"", fps)));
 }
 
 }  // namespace laterna::app

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "laterna/result.h"
+#include "laterna/video.h"
 
 namespace laterna::app {
 
@@ -22,9 +23,11 @@ struct TimeOptions {
 
   void declare(CLI::App& command);
   [[nodiscard]] bool is_series() const { return !frames.empty(); }
-  /// One picture, or one for each frame of the range with its number in place of the # of `output`. Frame k is at k / fps,
-  /// to the nearest double. Error: what was typed is no range, or the file's name has no place for a number.
+  /// One picture, or one for each frame of the range with its number in place of the # of `output`, or all into `output`
+  /// where that is a film. Frame k is at k / fps, to the nearest double. Error: what was typed is no range, or the file's name has no place for a number.
   [[nodiscard]] Result<std::vector<TimedOutput>> outputs(const std::string& output) const;
+  /// --fps as films have it. Error: no ratio of whole numbers.
+  [[nodiscard]] Result<VideoRate> video_rate() const;
 };
 
 }  // namespace laterna::app

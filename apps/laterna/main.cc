@@ -50,6 +50,7 @@ constexpr const char* kFooter =
 
 int main(int argc, char** argv) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, stop);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is a failed write, which is told
   CLI::App app(kDescription, "laterna");
   app.footer(kFooter);
   app.require_subcommand(1);

@@ -15,16 +15,20 @@
 
 #include "debug_picture.h"
 #include "false_color.h"
+#include "film_options.h"
 #include "frame_range.h"
+#include "interruption.h"
 #include "laterna/light_color.h"
 #include "laterna/measure.h"
 #include "laterna/technique_choice.h"
 #include "layer_pictures.h"
 #include "outcome.h"
 #include "progress_line.h"
+#include "resumed_frames.h"
 #include "scene_options.h"
 #include "technique_names.h"
 #include "unserved_lights.h"
+#include "write_queue.h"
 
 namespace laterna::app {
 namespace {
@@ -51,6 +55,7 @@ struct RenderOptions {
   SceneOptions scene;
   ViewOptions view;
   TimeOptions time;
+  FilmOptions film;
   std::string output, layer_pictures;
   std::string shadows = "map", shading = "pbr", passes = "single", interpolation = "perspective",
               depth = "auto";
@@ -58,7 +63,7 @@ struct RenderOptions {
   std::vector<std::string> layers;
   int samples = 1, anisotropy = 8, accumulate = 1;
   double noise = 0;
-  bool progressive = false, json = false;
+  bool progressive = false, resume = false, json = false;
 };
 
 void list_all_techniques() {
@@ -151,7 +156,7 @@ void advise_exposure(const LayeredImage& image, float exposure, bool is_automati
   }
 }
 
-nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double write_ms) {
+nlohmann::json statistics_json(const RenderStatistics& s, double load_ms) {
   nlohmann::json memory = nlohmann::json::array();
   for (const auto& light : s.shadow_memory) {
     memory.push_back({{"light", light.light}, {"maps", light.maps}, {"bytes", light.bytes}});
@@ -164,11 +169,13 @@ nlohmann::json statistics_json(const RenderStatistics& s, double load_ms, double
                            {"silhouettes", light.silhouettes},
                            {"silhouettes_drawn", light.silhouettes_drawn}});
   }
-  return {{"load_ms", load_ms},         {"plan_ms", s.plan_ms},     {"shadow_ms", s.shadow_ms},
-          {"bin_ms", s.bin_ms},         {"shade_ms", s.shade_ms},   {"render_ms", s.total_ms},
-          {"write_ms", write_ms},       {"triangles", s.triangles}, {"triangles_drawn", s.triangles_drawn},
-          {"maps_drawn", s.maps_drawn}, {"maps_kept", s.maps_kept}, {"silhouettes", silhouettes},
-          {"shadow_memory", memory},    {"pictures", s.pictures},   {"noise", s.noise}};
+  return {{"load_ms", load_ms},         {"plan_ms", s.plan_ms},
+          {"shadow_ms", s.shadow_ms},   {"bin_ms", s.bin_ms},
+          {"shade_ms", s.shade_ms},     {"render_ms", s.total_ms},
+          {"triangles", s.triangles},   {"triangles_drawn", s.triangles_drawn},
+          {"maps_drawn", s.maps_drawn}, {"maps_kept", s.maps_kept},
+          {"silhouettes", silhouettes}, {"shadow_memory", memory},
+          {"pictures", s.pictures},     {"noise", s.noise}};
 }
 
 /// A lamp with a size and a lens that is open throw soft shadows, but most techniques see their middle alone.
@@ -222,8 +229,7 @@ class RenderCommand {
       return report(bad_option(fault));
     const Result<std::vector<TimedOutput>> outputs = options_.time.outputs(options_.output);
     if (!outputs) return report(outputs.error());
-    if (Result<void> writable = check_image_output(outputs->front().file); !writable)
-      return report(writable.error());
+    if (Result<void> writable = check_output(*settings, *outputs); !writable) return report(writable.error());
     Result<Renderer> renderer = options_.scene.make_renderer(
         [&](Scene& scene) {
           if (*background) scene.background = *background;
@@ -253,6 +259,7 @@ class RenderCommand {
     if (options_.progressive && options_.output == "-")
       return "--progressive and -o - would write several pictures to standard output";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
+    if (std::string fault = find_film_fault(settings); !fault.empty()) return fault;
     if (options_.time.is_series() && !options_.layer_pictures.empty())
       return "--layer-pictures: with --frames, each frame's would replace the last one's; give an output "
              "that ends in .exr";
@@ -263,33 +270,167 @@ class RenderCommand {
     return {};
   }
 
+  // What films do not go with.
+  [[nodiscard]] std::string find_film_fault(const RenderSettings& settings) const {
+    if (options_.resume && (!options_.time.is_series() || makes_film()))
+      return "--resume goes on with numbered pictures: it needs --frames and an output such as out.####.png";
+    if (!makes_film()) {
+      return options_.film.are_given() ? "--codec and --quality are for films: give an output that ends in "
+                                         ".mp4, .mkv, .webm or .gif"
+                                       : "";
+    }
+    if (!options_.time.is_series()) return "a film needs --frames FIRST:LAST";
+    if (options_.background == "transparent") return "--background transparent: films are opaque";
+    if (options_.depth != "auto" && options_.depth != "8") return "--depth: films have 8 bits";
+    if (options_.progressive) return "--progressive is for pictures, not for films";
+    if (!settings.layers.empty())
+      return "--layers: only OpenEXR holds layers: give numbered pictures, out.####.exr";
+    return {};
+  }
+
+  [[nodiscard]] bool makes_film() const { return is_video_output(options_.output); }
+
+  // Before what takes long.
+  Result<void> check_output(const RenderSettings& settings, const std::vector<TimedOutput>& outputs) {
+    if (!makes_film()) return check_image_output(outputs.front().file);
+    const Result<VideoRate> rate = options_.time.video_rate();
+    if (!rate) return tl::unexpected(rate.error());
+    film_options_ = options_.film.with(*rate, outputs.size());
+    return check_video_output(options_.output, settings.width, settings.height, film_options_);
+  }
+
   int draw_all(Renderer& renderer, const View& view, const RenderSettings& settings, float exposure,
                const std::vector<TimedOutput>& outputs) {
-    nlohmann::json pictures = nlohmann::json::array();
-    for (const TimedOutput& output : outputs) {
-      const Result<int> changed = renderer.set_time(output.seconds);
-      if (!changed) return report(changed.error());
-      is_first_ = &output == &outputs.front();
-      nlohmann::json picture = {
-          {"output", output.file}, {"time_s", output.seconds}, {"films_changed", *changed}};
-      if (const int outcome = draw(renderer, view, settings, exposure, picture); outcome != kOk)
-        return outcome;
-      if (options_.json) pictures.push_back(std::move(picture));
+    settings_ = settings;
+    threads_ = renderer.threads();
+    exposure_ = exposure;
+    const bool is_series = options_.time.is_series();
+    const Interruption interruption(is_series);
+    interruption_ = &interruption;
+    if (makes_film()) {
+      Result<VideoWriter> film =
+          VideoWriter::create(options_.output, settings.width, settings.height, film_options_);
+      if (!film) return report(film.error());
+      film_ = std::move(*film);
     }
+    std::vector<FrameReport> told(outputs.size());
+    if (const Result<void> resumed = skip_finished(renderer, view, outputs, told); !resumed)
+      return report(resumed.error());
+    const Result<void> drawn = draw_frames(renderer, view, outputs, told);
+    if (const int outcome = close(drawn, told); outcome != kOk) return outcome;
     if (!options_.json) return kOk;
-    fmt::print("{}\n", options_.time.is_series() ? pictures.dump(2) : pictures[0].dump(2));
+    nlohmann::json pictures = nlohmann::json::array();
+    for (FrameReport& frame : told) {
+      if (!frame.is_skipped) frame.json["write_ms"] = frame.write_ms;
+      pictures.push_back(std::move(frame.json));
+    }
+    fmt::print("{}\n", is_series ? pictures.dump(2) : pictures[0].dump(2));
     return kOk;
   }
 
-  // `told`: what there is to tell in JSON, with the "output" to write.
-  int draw(const Renderer& renderer, const View& view, const RenderSettings& settings, float exposure,
-           nlohmann::json& told) {
-    output_ = told.at("output").get<std::string>();
+  // What there is to tell of a frame in JSON.
+  struct FrameReport {
+    nlohmann::json json;
+    double write_ms = 0;
+    bool is_skipped = false, is_drawn = false;
+  };
+
+  // Frames of --resume. The last of them is drawn once more, where others are to be added.
+  Result<void> skip_finished(Renderer& renderer, const View& view, const std::vector<TimedOutput>& outputs,
+                             std::vector<FrameReport>& told) {
+    if (!options_.resume) return {};
+    const std::vector<bool> is_finished = find_finished(outputs);
+    const auto count = static_cast<std::size_t>(std::ranges::count(is_finished, true));
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      if (!is_finished[i]) continue;
+      last = i;
+      told[i].is_skipped = true;
+      told[i].json = {{"output", outputs[i].file}, {"time_s", outputs[i].seconds}, {"skipped", true}};
+    }
+    if (count > 0) {
+      fmt::print(stderr, "laterna: note: {} of {} frames are there already\n", count, outputs.size());
+    }
+    if (count == 0 || count == outputs.size()) return {};
+    return check_finished(outputs[last], [&](const std::filesystem::path& file) -> Result<void> {
+      FrameReport ignored;
+      Result<FinishedPicture> picture = draw(renderer, view, outputs[last], {}, ignored);
+      if (!picture) return tl::unexpected(std::move(picture.error()));
+      return write_picture(std::move(picture->image), file, picture->exposure);
+    });
+  }
+
+  Result<void> draw_frames(Renderer& renderer, const View& view, const std::vector<TimedOutput>& outputs,
+                           std::vector<FrameReport>& told) {
+    WriteQueue queue([&](const FinishedPicture& picture) { return write(picture); });
+    const auto to_draw = static_cast<double>(std::ranges::count(told, false, &FrameReport::is_skipped));
+    const Progress line = progress_line(
+        options_.time.is_series() ? fmt::format("rendering {} frames", to_draw) : std::string("rendering"));
+    double done = 0;
+    const Progress progress = [&](double fraction) {
+      return (!line || line((done + fraction) / to_draw)) && interruption_->signal() == 0 &&
+             !queue.has_failed();
+    };
+    Result<void> outcome;
+    for (std::size_t i = 0; i < outputs.size() && outcome && interruption_->signal() == 0; ++i) {
+      if (told[i].is_skipped) continue;
+      Result<FinishedPicture> picture = draw(renderer, view, outputs[i], progress, told[i]);
+      if (picture) {
+        queue.add(std::move(*picture));
+        told[i].is_drawn = true;
+      } else {
+        outcome = tl::unexpected(std::move(picture.error()));
+      }
+      ++done;
+    }
+    const Result<void> written = queue.finish();
+    return written ? outcome : written;
+  }
+
+  // What a series leaves behind, however it ended.
+  int close(const Result<void>& drawn, const std::vector<FrameReport>& told) {
+    const int signal = interruption_->signal();
+    if (drawn && signal == 0) {
+      if (!film_) return kOk;
+      const Result<void> finished = film_->finish();
+      if (finished) return kOk;
+      report(finished.error());
+      keep_incomplete_film(told.size());
+      return static_cast<int>(finished.error().failure);
+    }
+    if (signal == 0) report(drawn.error());
+    if (film_) keep_incomplete_film(told.size());
+    if (signal == 0) return static_cast<int>(drawn.error().failure);
+    const auto missing =
+        std::ranges::count_if(told, [](const FrameReport& f) { return !f.is_skipped && !f.is_drawn; });
+    if (!film_)
+      fmt::print(stderr, "laterna: stopped; {} of {} frames are still to be drawn: --resume goes on\n",
+                 missing, told.size());
+    film_.reset();
+    end_by_signal(signal);
+  }
+
+  void keep_incomplete_film(std::size_t frames) {
+    const std::int64_t written = film_->frames();
+    const Result<std::filesystem::path> kept = film_->keep_incomplete();
+    if (kept) {
+      fmt::print(stderr, "laterna: note: {} holds the film as far as it got: {} of {} frames were drawn\n",
+                 kept->string(), written, frames);
+    } else {
+      report(kept.error());
+    }
+  }
+
+  // `told` gets what there is to tell in JSON, but for what writing costs.
+  Result<FinishedPicture> draw(Renderer& renderer, const View& view, const TimedOutput& output,
+                               const Progress& progress, FrameReport& told) {
+    const Result<int> changed = renderer.set_time(output.seconds);
+    if (!changed) return tl::unexpected(changed.error());
+    output_ = output.file;
+    float exposure = exposure_;
     RenderStatistics statistics;
-    settings_ = settings;
-    threads_ = renderer.threads();
-    Result<LayeredImage> image = draw_image(renderer, view, settings, exposure, statistics);
-    if (!image) return report(image.error());
+    Result<LayeredImage> image = draw_image(renderer, view, progress, statistics);
+    if (!image) return tl::unexpected(std::move(image.error()));
     if (shows_light()) {
       const bool is_automatic = exposure == 0;
       if (is_automatic) exposure = automatic_exposure(*image);
@@ -297,50 +438,55 @@ class RenderCommand {
     } else {
       exposure = 1;
     }
-    const auto write_start = std::chrono::steady_clock::now();
-    if (!options_.layer_pictures.empty()) {
-      const Result<void> written = write_layer_pictures(*image, options_.layer_pictures, exposure);
-      if (!written) return report(written.error());
+    is_first_ = false;
+    if (options_.json) {
+      told.json = statistics_json(statistics, load_ms_);
+      told.json.update({{"output", output.file}, {"time_s", output.seconds}, {"films_changed", *changed}});
+      told.json["size"] = {image->width, image->height};
+      told.json["exposure"] = exposure;
     }
-    const int width = image->width, height = image->height;
-    if (Result<void> written = write_picture(std::move(*image), exposure); !written)
-      return report(written.error());
-    if (!options_.json) return kOk;
-    told.update(statistics_json(statistics, load_ms_, elapsed(write_start)));
-    told["size"] = {width, height};
-    told["exposure"] = exposure;
-    return kOk;
+    return FinishedPicture{std::move(*image), output.file, exposure, &told.write_ms};
   }
 
-  Result<LayeredImage> draw_image(const Renderer& renderer, const View& view, const RenderSettings& settings,
-                                  float exposure, RenderStatistics& statistics) const {
-    if (false_color_) return draw_false_color(renderer, view, settings, *false_color_, statistics);
-    if (!debug_) return draw_light(renderer, view, settings, exposure, statistics);
-    Result<ExplainedPicture> shown = draw_debug_picture(renderer, view, settings, *debug_, statistics);
+  // Called by the thread that writes.
+  Result<void> write(const FinishedPicture& picture) {
+    if (film_) return film_->write(picture.image, picture.exposure, threads_);
+    if (!options_.layer_pictures.empty()) {
+      Result<void> written = write_layer_pictures(picture.image, options_.layer_pictures, picture.exposure);
+      if (!written) return written;
+    }
+    return write_picture(picture.image, picture.file, picture.exposure);
+  }
+
+  Result<LayeredImage> draw_image(const Renderer& renderer, const View& view, const Progress& progress,
+                                  RenderStatistics& statistics) const {
+    if (false_color_) return draw_false_color(renderer, view, settings_, *false_color_, statistics);
+    if (!debug_) return draw_light(renderer, view, progress, statistics);
+    Result<ExplainedPicture> shown = draw_debug_picture(renderer, view, settings_, *debug_, statistics);
     if (!shown) return tl::unexpected(std::move(shown.error()));
     for (const std::string& line : shown->legend) fmt::print(stderr, "laterna: {}\n", line);
     return std::move(shown->picture);
   }
 
-  Result<LayeredImage> draw_light(const Renderer& renderer, const View& view, const RenderSettings& settings,
-                                  float exposure, RenderStatistics& statistics) const {
+  Result<LayeredImage> draw_light(const Renderer& renderer, const View& view, const Progress& progress,
+                                  RenderStatistics& statistics) const {
     Result<void> written;
     Preview preview;
     if (options_.progressive) {
       preview = [&](const PartialMean& mean) {
         if ((mean.pictures & (mean.pictures - 1)) != 0) return true;
         mean.write();
-        written = write_picture(*mean.image, exposure == 0 ? automatic_exposure(*mean.image) : exposure);
+        written =
+            write_picture(*mean.image, output_, exposure_ == 0 ? automatic_exposure(*mean.image) : exposure_);
         if (written) tell_noise(mean.pictures, mean.noise);
         return written.has_value();
       };
     }
-    Result<LayeredImage> image =
-        renderer.render(view, settings, progress_line("rendering"), &statistics, preview);
+    Result<LayeredImage> image = renderer.render(view, settings_, progress, &statistics, preview);
     if (!written) return tl::unexpected(written.error());
     if (!image || !is_first_) return image;
-    if (settings.accumulate == 1) {
-      advise_softness(renderer.scene(), settings.shadows);
+    if (settings_.accumulate == 1) {
+      advise_softness(renderer.scene(), settings_.shadows);
     } else {
       tell_noise(statistics.pictures, statistics.noise);
     }
@@ -355,12 +501,12 @@ class RenderCommand {
                pictures, 100 * noise);
   }
 
-  [[nodiscard]] WriteOptions write_options(float exposure) const {
+  [[nodiscard]] WriteOptions write_options(const std::filesystem::path& file, float exposure) const {
     WriteOptions write;
     write.depth = kDepth.at(options_.depth);
     // In half precision the lights' layers would no longer add up to beauty.
     const bool has_light_layers = std::ranges::find(settings_.layers, Layer::light) != settings_.layers.end();
-    if (has_light_layers && keeps_layers(output_) && options_.depth == "auto")
+    if (has_light_layers && keeps_layers(file) && options_.depth == "auto")
       write.depth = WriteOptions::Depth::single;
     write.threads = threads_;
     write.exposure = exposure;
@@ -368,17 +514,22 @@ class RenderCommand {
   }
 
   // Formats for the screen hold neither layers nor, unless it was asked for, coverage.
-  [[nodiscard]] Result<void> write_picture(LayeredImage image, float exposure) const {
-    if (shows_light() && !keeps_layers(output_))
+  [[nodiscard]] Result<void> write_picture(LayeredImage image, const std::filesystem::path& file,
+                                           float exposure) const {
+    if (shows_light() && !keeps_layers(file))
       image.channels.resize(options_.background == "transparent" ? 4 : 3);
-    return write_image(image, output_, write_options(exposure));
+    return write_image(image, file, write_options(file, exposure));
   }
 
   const RenderOptions& options_;
   std::optional<DebugChoice> debug_;
   std::optional<FalseColorChoice> false_color_;
   RenderSettings settings_;
-  std::string output_;
+  VideoOptions film_options_;
+  std::optional<VideoWriter> film_;  // used by the thread that writes, while there is one
+  const Interruption* interruption_ = nullptr;
+  std::string output_;  // of the picture that is drawn
+  float exposure_ = 1;  // 0: automatic
   int threads_ = 0;
   double load_ms_ = 0;
   bool is_first_ = true;  // picture of a series: what there is to remark is remarked once
@@ -394,6 +545,7 @@ constexpr const char* kFooter =
     "  laterna render room.glb --rig stage.json -o room.exr --layers light,lux,visibility\n"
     "  laterna render room.glb --rig stage.json --from-light lantern -o what-the-lantern-sees.png\n"
     "  laterna render room.glb --rig film.json --frames 0:47 --fps 24 -o film.####.png\n"
+    "  laterna render room.glb --rig film.json --frames 0:47 --fps 24 -o film.mp4\n"
     "  laterna render room.glb -o - | display\n";
 
 void declare_picture_options(CLI::App& command, RenderOptions& o) {
@@ -450,11 +602,18 @@ void declare_render(CLI::App& app, Run& run) {
   command->footer(kFooter);
   o.scene.declare_scene(*command);
   command
-      ->add_option("-o,--output", o.output,
-                   "picture to write: .png, .exr, .hdr or .pfm; - is PNG on standard output")
+      ->add_option(
+          "-o,--output", o.output,
+          "picture to write: .png, .exr, .hdr or .pfm; - is PNG on standard output; with --frames also a\n"
+          "film: .mp4, .mkv, .webm or .gif")
       ->required();
   o.view.declare(*command);
   o.time.declare(*command);
+  o.film.declare(*command);
+  command->add_flag(
+      "--resume", o.resume,
+      "of --frames: leave pictures that are there as they are; the last of them is drawn once more and\n"
+      "compared, so that frames of other settings do not mix");
   declare_picture_options(*command, o);
   std::vector<std::string> layers = {"all"};
   for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);

@@ -90,6 +90,27 @@ Result<void> OutputFile::write(std::span<const std::byte> bytes) {
   return {};
 }
 
+Result<void> OutputFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::pwrite(descriptor_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count >= 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(count));
+      offset += static_cast<std::uint64_t>(count);
+    } else if (errno != EINTR) {
+      return cannot_write(target_, "cannot write: " + describe_errno(errno));
+    }
+  }
+  return {};
+}
+
+Result<void> OutputFile::commit_as(const std::filesystem::path& other) {
+  std::error_code fault;
+  destination_ = std::filesystem::absolute(other, fault);
+  target_ = other;
+  if (fault) return cannot_write(target_, "cannot rename into place: " + fault.message());
+  return commit();
+}
+
 Result<void> OutputFile::commit() {
   if (const int number = descriptor_.close(); number != 0) {
     return cannot_write(target_, "cannot write: " + describe_errno(number));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 
@@ -26,8 +27,12 @@ class OutputFile {
   ~OutputFile() = default;
 
   Result<void> write(std::span<const std::byte> bytes);
+  /// At an offset from the file's beginning, wherever write() is: not for stdout and pipes.
+  Result<void> write_at(std::uint64_t offset, std::span<const std::byte> bytes);
   /// Puts the file in its place. Nothing may be written after it.
   Result<void> commit();
+  /// The same under another name; the target keeps what it held. Not for what is written in place.
+  Result<void> commit_as(const std::filesystem::path& other);
 
  private:
   explicit OutputFile(std::filesystem::path target) : target_(std::move(target)) {}

@@ -26,6 +26,9 @@ Result<EncodedBytes> encode_radiance(const LayeredImage& image, const WriteOptio
 Result<EncodedBytes> encode_pfm(const LayeredImage& image, const WriteOptions& options,
                                 std::string_view name);
 
+/// The pixels of an 8-bit PNG of the picture's R, G, B, or of Y three times. Colours stay multiplied by alpha.
+Result<Image> screen_pixels(const LayeredImage& image, float exposure, int threads, std::string_view name);
+
 /// 8- and 16-bit pictures as they are stored.
 EncodedBytes encode_png(const Image& image, int threads);
 

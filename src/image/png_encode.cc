@@ -172,6 +172,16 @@ EncodedBytes encode_pixels(const Image& image, const TaskPool& pool) {
 
 }  // namespace
 
+Result<Image> screen_pixels(const LayeredImage& image, float exposure, int threads, std::string_view name) {
+  ColourChannels channels = find_colour_channels(image);
+  if (channels.count == 0)
+    return cannot_hold(name, "a film needs channels R, G, B or Y; the picture has " + channel_names(image));
+  if (channels.count == 1) channels.colour.fill(channels.colour[0]);
+  channels.count = 3;
+  channels.alpha = nullptr;
+  return quantised<std::uint8_t>(image, channels, PixelType::u8, exposure, TaskPool(threads));
+}
+
 EncodedBytes encode_png(const Image& image, int threads) { return encode_pixels(image, TaskPool(threads)); }
 
 Result<EncodedBytes> encode_png(const LayeredImage& image, const WriteOptions& options,

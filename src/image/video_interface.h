@@ -43,6 +43,37 @@ struct LaternaVideoInfo {
   std::size_t missing_frames;  ///< that the file promises and does not hold
 };
 
+/// How frames are handed to an encoder.
+enum LaternaVideoPixels {
+  kVideoYuv420,  ///< planes Y, Cb, Cr of 8 bits, chroma for 2 x 2 pixels together: BT.709, limited range
+  kVideoRgb24,   ///< one plane of bytes R G B R G B …: sRGB
+};
+
+/// A film to be written.
+struct LaternaVideoSettings {
+  const char* container;          ///< FFmpeg's short name of the muxer: "mp4"
+  const char* encoder;            ///< FFmpeg's name: "libx264"
+  const char* options;            ///< of the encoder: lines "key=value"
+  const char* container_options;  ///< the same of the muxer
+  int width, height;
+  LaternaVideoPixels pixels;
+  int rate_numerator, rate_denominator;  ///< frames per second
+  int frames_between_keys;               ///< at most
+};
+
+/// Where the file's bytes go: `offset` from its beginning. Returns 0 or an errno.
+struct LaternaVideoSink {
+  void* to;
+  int (*write)(void* to, std::int64_t offset, const std::uint8_t* bytes, std::size_t size);
+};
+
+struct LaternaVideoPlanes {
+  const std::uint8_t* data[3];
+  std::ptrdiff_t stride[3];
+};
+
+struct LaternaVideoOutput;  // the plug-in's own
+
 /// Messages end with NUL and are cut where they do not fit.
 struct LaternaVideoPlugin {
   int interface_number;
@@ -54,9 +85,21 @@ struct LaternaVideoPlugin {
   int (*read)(LaternaVideoFilm* film, std::size_t frame, LaternaVideoPicture* picture, char* message,
               std::size_t message_size);
   void (*close)(LaternaVideoFilm* film);
+
+  /// Whether FFmpeg here has an encoder of that name, and a container that holds what it makes.
+  int (*can_write)(const char* container, const char* encoder);
+  /// Null: `message` says why. The sink is used until discard().
+  LaternaVideoOutput* (*create)(const LaternaVideoSettings* settings, const LaternaVideoSink* sink,
+                                char* message, std::size_t message_size);
+  /// The next frame, copied; and the end of the film. 0: `message` says why.
+  int (*write)(LaternaVideoOutput* output, const LaternaVideoPlanes* planes, char* message,
+               std::size_t message_size);
+  int (*finish)(LaternaVideoOutput* output, char* message, std::size_t message_size);
+  /// Writes nothing any more.
+  void (*discard)(LaternaVideoOutput* output);
 };
 
-inline constexpr int kVideoInterface = 1;
+inline constexpr int kVideoInterface = 2;
 
 /// The plug-in's one symbol.
 using LaternaVideoEntry = const LaternaVideoPlugin* (*)();

@@ -1,0 +1,62 @@
+#include "write_queue.h"
+
+#include <chrono>
+#include <utility>
+
+namespace laterna::app {
+
+WriteQueue::WriteQueue(std::function<Result<void>(const FinishedPicture&)> write)
+    : write_(std::move(write)), thread_([this] { work(); }) {}
+
+WriteQueue::~WriteQueue() {
+  if (thread_.joinable()) static_cast<void>(finish());
+}
+
+void WriteQueue::add(FinishedPicture picture) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return !waiting_ || error_; });
+  if (error_) return;
+  waiting_ = std::move(picture);
+  changed_.notify_all();
+}
+
+bool WriteQueue::has_failed() const {
+  const std::lock_guard lock(mutex_);
+  return error_.has_value();
+}
+
+Result<void> WriteQueue::finish() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_closing_ = true;
+    changed_.notify_all();
+  }
+  thread_.join();
+  return error_ ? Result<void>(tl::unexpected(*error_)) : Result<void>();
+}
+
+void WriteQueue::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [&] { return waiting_ || is_closing_; });
+    if (!waiting_) return;
+    const FinishedPicture picture = std::move(*waiting_);
+    waiting_.reset();
+    changed_.notify_all();
+    lock.unlock();
+    const auto start = std::chrono::steady_clock::now();
+    Result<void> written = write_(picture);
+    if (picture.write_ms != nullptr) {
+      *picture.write_ms =
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    }
+    lock.lock();
+    if (written) continue;
+    error_ = std::move(written.error());
+    waiting_.reset();
+    changed_.notify_all();
+    return;
+  }
+}
+
+}  // namespace laterna::app

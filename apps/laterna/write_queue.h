@@ -1,0 +1,50 @@
+// Pictures are written while the next one is drawn.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "laterna/image.h"
+
+namespace laterna::app {
+
+/// A picture on its way to a file.
+struct FinishedPicture {
+  LayeredImage image;
+  std::string file;
+  float exposure = 1;
+  double* write_ms = nullptr;  ///< set when it is written; may be null
+};
+
+/// A thread that writes pictures in their order. At most one waits while another is written, so that a series holds three
+/// at a time with the one that is drawn. After an error nothing more is written.
+class WriteQueue {
+ public:
+  explicit WriteQueue(std::function<Result<void>(const FinishedPicture&)> write);
+  ~WriteQueue();
+  WriteQueue(const WriteQueue&) = delete;
+  WriteQueue& operator=(const WriteQueue&) = delete;
+
+  /// Waits while another picture waits. The picture is lost where one before it could not be written: finish() tells.
+  void add(FinishedPicture picture);
+  [[nodiscard]] bool has_failed() const;
+  /// Waits until all are written. Error: the first that occurred.
+  Result<void> finish();
+
+ private:
+  void work();
+
+  std::function<Result<void>(const FinishedPicture&)> write_;
+  mutable std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  std::optional<FinishedPicture> waiting_;
+  std::optional<Error> error_;
+  bool is_closing_ = false;
+  std::thread thread_;
+};
+
+}  // namespace laterna::app
