@@ -51,6 +51,7 @@ PUBLIC_HEADERS = {
     "shadows.h": "scene",
     "stages.h": "base",
     "technique_choice.h": "scene",
+    "terrain.h": "scene",
     "video.h": "image",
     "view.h": "base",
 }

@@ -362,7 +362,7 @@ class RenderCommand {
 
   Result<void> draw_frames(Renderer& renderer, const View& view, const std::vector<TimedOutput>& outputs,
                            std::vector<FrameReport>& told) {
-    WriteQueue queue([&](const FinishedPicture& picture) { return write(picture); });
+    WriteQueue queue([&](FinishedPicture picture) { return write(std::move(picture)); });
     const auto to_draw = static_cast<double>(std::ranges::count(told, false, &FrameReport::is_skipped));
     const Progress line = progress_line(
         options_.time.is_series() ? fmt::format("rendering {} frames", to_draw) : std::string("rendering"));
@@ -449,13 +449,13 @@ class RenderCommand {
   }
 
   // Called by the thread that writes.
-  Result<void> write(const FinishedPicture& picture) {
+  Result<void> write(FinishedPicture picture) {
     if (film_) return film_->write(picture.image, picture.exposure, threads_);
     if (!options_.layer_pictures.empty()) {
       Result<void> written = write_layer_pictures(picture.image, options_.layer_pictures, picture.exposure);
       if (!written) return written;
     }
-    return write_picture(picture.image, picture.file, picture.exposure);
+    return write_picture(std::move(picture.image), picture.file, picture.exposure);
   }
 
   Result<LayeredImage> draw_image(const Renderer& renderer, const View& view, const Progress& progress,

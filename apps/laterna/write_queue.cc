@@ -5,7 +5,7 @@
 
 namespace laterna::app {
 
-WriteQueue::WriteQueue(std::function<Result<void>(const FinishedPicture&)> write)
+WriteQueue::WriteQueue(std::function<Result<void>(FinishedPicture)> write)
     : write_(std::move(write)), thread_([this] { work(); }) {}
 
 WriteQueue::~WriteQueue() {
@@ -40,15 +40,15 @@ void WriteQueue::work() {
   for (;;) {
     changed_.wait(lock, [&] { return waiting_ || is_closing_; });
     if (!waiting_) return;
-    const FinishedPicture picture = std::move(*waiting_);
+    FinishedPicture picture = std::move(*waiting_);
     waiting_.reset();
     changed_.notify_all();
     lock.unlock();
     const auto start = std::chrono::steady_clock::now();
-    Result<void> written = write_(picture);
-    if (picture.write_ms != nullptr) {
-      *picture.write_ms =
-          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    double* const write_ms = picture.write_ms;
+    Result<void> written = write_(std::move(picture));
+    if (write_ms != nullptr) {
+      *write_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
     lock.lock();
     if (written) continue;

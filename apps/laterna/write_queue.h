@@ -24,7 +24,7 @@ struct FinishedPicture {
 /// at a time with the one that is drawn. After an error nothing more is written.
 class WriteQueue {
  public:
-  explicit WriteQueue(std::function<Result<void>(const FinishedPicture&)> write);
+  explicit WriteQueue(std::function<Result<void>(FinishedPicture)> write);
   ~WriteQueue();
   WriteQueue(const WriteQueue&) = delete;
   WriteQueue& operator=(const WriteQueue&) = delete;
@@ -38,7 +38,7 @@ class WriteQueue {
  private:
   void work();
 
-  std::function<Result<void>(const FinishedPicture&)> write_;
+  std::function<Result<void>(FinishedPicture)> write_;
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
   std::optional<FinishedPicture> waiting_;

@@ -20,10 +20,10 @@ struct VideoRate {
 
 struct VideoOptions {
   /// A name of list_video_codecs(); empty: the first that the file's ending may hold.
-  std::string codec;
+  std::string codec = {};
   /// 0 (smallest file) … 100 (best picture), for codecs that lose something; a step of 2 is about one of x264's CRF.
   double quality = 66;
-  VideoRate rate;
+  VideoRate rate = {};
   /// No more frames than these will be written; 0: not known. Where it is known, an MP4 file has room for its index at its
   /// beginning: it plays while it is still being loaded, and can be kept when the disk is full.
   std::int64_t most_frames = 0;

@@ -9,6 +9,7 @@
 #include "scene/rig_lights.h"
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
+#include "scene/rig_terrain.h"
 #include "scene/spelling.h"
 #include "scene/unique_names.h"
 
@@ -31,6 +32,12 @@ class RigReader {
     }
     if (const JsonValue* nodes = root.array("nodes")) {
       for (const JsonValue& value : nodes->children) read_override(value);
+    }
+    if (const JsonValue* terrain = root.array("terrain")) {
+      for (const JsonValue& value : terrain->children) {
+        const std::string name = fmt::format("terrain {}", 1 + (&value - terrain->children.data()));
+        read_rig_terrain(json_, value, folder_, name, rig_.scene, faults_);
+      }
     }
     root.report_unknown_members("a rig");
     name_unnamed(rig_.scene.cameras, camera_names_, "camera");

@@ -4,7 +4,8 @@
 //   { "ambient": [r, g, b], "background": [r, g, b], "shading": {"specular": 0.2, "shininess": 32},
 //     "cameras": [{"name", "position", "target", "up", a frustum}],
 //     "lights":  [{"name", "type", "position", "target", "up", "color", "enabled", "shadow", …}],
-//     "nodes":   [{"name", "casts_shadow", "receives_shadow", "visible"}] }
+//     "nodes":   [{"name", "casts_shadow", "receives_shadow", "visible"}],
+//     "terrain": [{"name", "heights", "size", "height", "position", "error", "color", "roughness", "texture", "texture_repeat"}] }
 //
 // A frustum: one of "yfov_deg", "hfov_deg" (with "aspect"), "intrinsics": {"fx", "fy", "cx", "cy", "width",
 // "height"}, "orthographic": {"height"}; "aspect" (width / height), "near", "far". Lights by "type":
@@ -31,7 +32,7 @@
 namespace laterna {
 
 struct Rig {
-  Scene scene;  ///< cameras, lights and their nodes
+  Scene scene;  ///< cameras, lights, terrain and their nodes
   std::vector<NodeOverride> overrides;
 };
 

@@ -5,9 +5,12 @@
 """
 
 import json
+import os
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -34,9 +37,10 @@ class Frames(unittest.TestCase):
         self.folder.cleanup()
 
     def render(self, *arguments):
+        size = [] if "--size" in arguments else ["--size", "64x48"]
         return subprocess.run(
-            [LATERNA, "render", str(SCENES / "stage.glb"), "--rig", str(self.at / "rig.json"), "--size", "64x48",
-             *arguments], capture_output=True, text=True, check=False)
+            [LATERNA, "render", str(SCENES / "stage.glb"), "--rig", str(self.at / "rig.json"), *size, *arguments],
+            capture_output=True, text=True, check=False)
 
     def names(self, ending):
         return sorted(p.name for p in self.at.iterdir() if p.name.endswith(ending))
@@ -82,12 +86,102 @@ class Frames(unittest.TestCase):
             (["--fps", "25", "-o", out], "requires --frames"),
             (["--time", "2e6", "-o", out], "a time must be from -1000000 to 1000000 seconds"),
             (["--frames", "0:3", "--layer-pictures", str(self.at), "-o", out], "--layer-pictures"),
+            (["-o", str(self.at / "out.gif")], "a film needs --frames"),
+            (["--frames", "0:3", "--resume", "-o", str(self.at / "out.gif")], "--resume goes on with numbered pictures"),
+            (["--resume", "-o", str(self.at / "out.png")], "--resume goes on with numbered pictures"),
+            (["--frames", "0:3", "--codec", "h264", "-o", out], "--codec and --quality are for films"),
+            (["--frames", "0:3", "--background", "transparent", "-o", str(self.at / "out.gif")], "films are opaque"),
+            (["--frames", "0:3", "--depth", "16", "-o", str(self.at / "out.gif")], "films have 8 bits"),
+            (["--frames", "0:3", "--layers", "depth", "-o", str(self.at / "out.gif")], "--layers: only OpenEXR"),
+            (["--frames", "0:3", "--fps", "60", "-o", str(self.at / "out.gif")], "at most 50 frames per second"),
+            (["--frames", "0:3", "--fps", "12.3456789", "-o", str(self.at / "out.gif")], "a ratio of whole numbers"),
+            (["--frames", "0:3", "--codec", "theora", "-o", str(self.at / "out.mp4")], 'there is no codec "theora"'),
+            (["--frames", "0:3", "--size", "65x48", "-o", str(self.at / "out.mp4")], "must be even, got 65 x 48"),
         ]:
             with self.subTest(arguments=arguments):
                 done = self.render(*arguments)
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(message, done.stderr)
         self.assertEqual(self.names(".png"), [])
+
+    def test_resume_draws_what_is_missing(self):
+        out = str(self.at / "out.##.png")
+        self.assertEqual(self.render("--frames", "0:5", "-o", out).returncode, 0)
+        whole = {name: (self.at / name).read_bytes() for name in self.names(".png")}
+        for k in (1, 4, 5):
+            (self.at / f"out.{k:02}.png").unlink()
+        done = self.render("--frames", "0:5", "-o", out, "--resume", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("3 of 6 frames are there already", done.stderr)
+        self.assertEqual([p.get("skipped", False) for p in json.loads(done.stdout)],
+                         [True, False, True, True, False, False])
+        self.assertEqual({name: (self.at / name).read_bytes() for name in self.names(".png")}, whole)
+        # Nothing to draw, whatever the settings; and then something, with others.
+        self.assertEqual(self.render("--frames", "0:5", "-o", out, "--resume", "--samples", "2").returncode, 0)
+        done = self.render("--frames", "0:6", "-o", out, "--resume", "--samples", "2")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("out.05.png: --resume: this frame is not what is drawn now", done.stderr)
+        self.assertEqual({name: (self.at / name).read_bytes() for name in self.names(".png")}, whole)
+
+    def bytes_written(self):
+        total = 0
+        for path in self.at.iterdir():
+            try:
+                total += path.stat().st_size
+            except FileNotFoundError:  # renamed meanwhile
+                pass
+        return total
+
+    def interrupt(self, output):
+        """Ctrl-C once some frames are in files, whole ones or parts."""
+        before = self.bytes_written()
+        with subprocess.Popen(
+                [LATERNA, "render", str(SCENES / "stage.glb"), "--rig", str(self.at / "rig.json"), "--size", "640x480",
+                 "--frames", "0:9999", "-o", str(self.at / output)], stderr=subprocess.PIPE, text=True) as process:
+            until = time.monotonic() + 60
+            while time.monotonic() < until and self.bytes_written() < before + 500_000:
+                time.sleep(0.01)
+            process.send_signal(signal.SIGINT)
+            _, told = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGINT, told)
+        return told
+
+    def test_ctrl_c_keeps_whole_pictures(self):
+        told = self.interrupt("out.####.png")
+        self.assertIn("of 10000 frames are still to be drawn: --resume goes on", told)
+        names = self.names(".png")
+        self.assertEqual(names, [f"out.{k:04}.png" for k in range(len(names))])
+        self.assertEqual([p for p in os.listdir(self.at) if p.startswith(".")], [])
+        still = self.at / "still.png"
+        self.assertEqual(self.render("--time", str((len(names) - 1) / 24), "--size", "640x480", "-o",
+                                     str(still)).returncode, 0)
+        self.assertEqual((self.at / names[-1]).read_bytes(), still.read_bytes())
+
+    def test_ctrl_c_keeps_the_beginning_of_a_film(self):
+        told = self.interrupt("out.gif")
+        self.assertIn("out.incomplete.gif holds the film as far as it got", told)
+        self.assertEqual(self.names(".gif"), ["out.incomplete.gif"])
+        film = (self.at / "out.incomplete.gif").read_bytes()
+        self.assertEqual((film[:6], film[-1:]), (b"GIF89a", b";"))
+
+    def test_a_film_is_its_pictures(self):
+        """Thrown as slides, a film's frames and the numbered pictures light the scene alike."""
+        done = subprocess.run([LATERNA, "render", "--list-codecs"], capture_output=True, text=True, check=True)
+        self.assertIn("gif", done.stdout)
+        if "ffv1   .mkv" not in done.stdout or "not here: FFmpeg lacks ffv1" in done.stdout:
+            self.skipTest("FFmpeg's libraries are not there")
+        self.assertEqual(self.render("--frames", "0:3", "-o", str(self.at / "p.##.png")).returncode, 0)
+        done = self.render("--frames", "0:3", "-o", str(self.at / "p.mkv"), "--codec", "ffv1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name, out in (("p.##.png", "a.#.exr"), ("p.mkv", "b.#.exr")):
+            rig = json.loads((self.at / "rig.json").read_text(encoding="utf-8"))
+            rig["lights"][0]["film"] = name
+            rig["lights"][0].pop("fps", None)
+            (self.at / "rig.json").write_text(json.dumps(rig), encoding="utf-8")
+            done = self.render("--frames", "0:3", "-o", str(self.at / out))
+            self.assertEqual(done.returncode, 0, done.stderr)
+        for k in range(4):
+            self.assertEqual((self.at / f"a.{k}.exr").read_bytes(), (self.at / f"b.{k}.exr").read_bytes(), k)
 
     def test_a_film_that_is_not_there(self):
         (self.at / "f.09.ppm").unlink()
