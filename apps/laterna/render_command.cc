@@ -389,20 +389,15 @@ class RenderCommand {
 
   // What a series leaves behind, however it ended.
   int close(const Result<void>& drawn, const std::vector<FrameReport>& told) {
-    const int signal = interruption_->signal();
-    if (drawn && signal == 0) {
-      if (!film_) return kOk;
-      const Result<void> finished = film_->finish();
-      if (finished) return kOk;
-      report(finished.error());
-      keep_incomplete_film(told.size());
-      return static_cast<int>(finished.error().failure);
-    }
-    if (signal == 0) report(drawn.error());
-    if (film_) keep_incomplete_film(told.size());
-    if (signal == 0) return static_cast<int>(drawn.error().failure);
     const auto missing =
         std::ranges::count_if(told, [](const FrameReport& f) { return !f.is_skipped && !f.is_drawn; });
+    Result<void> outcome = drawn;
+    if (film_ && drawn && missing == 0) outcome = film_->finish();
+    if (outcome && missing == 0) return kOk;
+    const int signal = interruption_->signal();
+    if (!outcome && outcome.error().failure != Failure::cancelled) report(outcome.error());
+    if (film_) keep_incomplete_film(told.size());
+    if (signal == 0) return static_cast<int>(outcome.error().failure);
     if (!film_)
       fmt::print(stderr, "laterna: stopped; {} of {} frames are still to be drawn: --resume goes on\n",
                  missing, told.size());
