@@ -12,6 +12,7 @@
 #include "laterna/build_info.h"
 #include "laterna/film.h"
 #include "laterna/render.h"
+#include "laterna/video.h"
 #include "outcome.h"
 
 namespace laterna::app {
@@ -72,7 +73,13 @@ int run_doctor(bool as_json) {
             {"gpu_needed", false},
             {"display_needed", false}};
   const VideoSupport video = video_support();
-  j["video"] = {{"available", video.is_there}, {"detail", video.description}};
+  j["video"] = {{"available", video.is_there}, {"detail", video.description}, {"codecs", Json::array()}};
+  std::string codecs;
+  for (const VideoCodec& codec : list_video_codecs()) {
+    if (!codec.is_there) continue;
+    j["video"]["codecs"].push_back(codec.name);
+    codecs += std::string(codecs.empty() ? "" : " ") + std::string(codec.name);
+  }
   for (const InstructionSet set : supported_instruction_sets()) j["instruction_sets"].push_back(name_of(set));
   for (const Component& c : components()) j["components"][c.name] = c.version;
   if (as_json) {
@@ -91,6 +98,7 @@ int run_doctor(bool as_json) {
   fmt::print("{:<18} not needed\n", "GPU, display");
   for (const Component& c : components()) fmt::print("{:<18} {}\n", c.name, c.version);
   fmt::print("{:<18} {}\n", "video", video.is_there ? video.description : "none: " + video.description);
+  fmt::print("{:<18} {}\n", "films out", codecs);
   return *agree ? kOk : kComparisonFailed;
 }
 

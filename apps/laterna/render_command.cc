@@ -47,6 +47,7 @@ const std::map<std::string, WriteOptions::Depth> kDepth = {{"auto", WriteOptions
 template <class Value>
 std::vector<std::string> names_of(const std::map<std::string, Value>& map) {
   std::vector<std::string> names;
+  names.reserve(map.size());
   for (const auto& [name, value] : map) names.push_back(name);
   return names;
 }
@@ -328,8 +329,8 @@ class RenderCommand {
     return kOk;
   }
 
-  // What there is to tell of a frame in JSON.
-  struct FrameReport {
+  // What there is to tell of a frame in JSON, whose move the library does not declare free of exceptions.
+  struct FrameReport {  // NOLINT(bugprone-exception-escape)
     nlohmann::json json;
     double write_ms = 0;
     bool is_skipped = false, is_drawn = false;

@@ -157,8 +157,8 @@ Result<VideoWriter> VideoWriter::create(const std::filesystem::path& file, int w
     if (const Result<void> place = image::check_place(file); !place) return tl::unexpected(place.error());
     Result<OutputFile> output = OutputFile::create(file);
     if (!output) return tl::unexpected(std::move(output.error()));
-    auto made = std::unique_ptr<Implementation>(
-        new Implementation{file, width, height, std::move(*output), nullptr, options.most_frames});
+    auto made = std::make_unique<Implementation>(
+        Implementation{file, width, height, std::move(*output), nullptr, options.most_frames});
     if (plan->plugin == nullptr) {
       made->encoder = image::make_gif_encoder(made->output, width, height, options.rate);
     } else {

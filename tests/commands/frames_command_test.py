@@ -194,6 +194,7 @@ class Frames(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         video = json.loads(done.stdout)["video"]
         self.assertIn("libavcodec" if video["available"] else "install", video["detail"])
+        self.assertIn("gif", video["codecs"])
 
 
 if __name__ == "__main__":
