@@ -53,6 +53,7 @@ Result<bool> hold_same_picture(const std::filesystem::path& a, const std::filesy
 
 std::vector<bool> find_finished(const std::vector<TimedOutput>& outputs) {
   std::vector<bool> is_finished;
+  is_finished.reserve(outputs.size());
   std::error_code ignored;
   for (const TimedOutput& output : outputs)
     is_finished.push_back(std::filesystem::is_regular_file(output.file, ignored));
