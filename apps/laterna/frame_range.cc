@@ -63,7 +63,7 @@ Result<FrameRate> parse_rate(const std::string& text) {
 }  // namespace
 
 void TimeOptions::declare(CLI::App& command) {
-  CLI::Option* one = command.add_option("--time", time, "scene time in seconds, for slides that are films")
+  CLI::Option* one = command.add_option("--time", time, "scene time in seconds: films and clips are where they then are")
                          ->capture_default_str();
   command
       .add_option(

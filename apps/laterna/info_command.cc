@@ -111,6 +111,18 @@ Json describe_pictures(const Scene& scene) {
   return all;
 }
 
+Json describe_clips(const Scene& scene) {
+  Json all = Json::array();
+  for (const Clip& clip : scene.clips) {
+    all.push_back({{"name", clip.name},
+                   {"duration_s", duration(clip)},
+                   {"channels", clip.channels.size()},
+                   {"plays", clip.plays},
+                   {"path", clip.is_path}});
+  }
+  return all;
+}
+
 Json describe(const Scene& scene) {
   const Totals totals = count(scene);
   const std::vector<glm::dmat4> world = world_from_nodes(scene);
@@ -124,7 +136,9 @@ Json describe(const Scene& scene) {
             {"cameras", Json::array()},
             {"lights", Json::array()},
             {"materials", Json::array()},
-            {"pictures", describe_pictures(scene)}};
+            {"pictures", describe_pictures(scene)},
+            {"clips", describe_clips(scene)},
+            {"skins", scene.skins.size()}};
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
     const Node& node = scene.nodes[n];
     if (node.camera >= 0)
@@ -174,6 +188,13 @@ void print_table(const Json& j) {
                                                       : fmt::format("{:.4g} cd", l["candela"].get<double>());
     fmt::print("  {:<18} {:<12} at {}, {}{}\n", l["name"].get<std::string>(), l["type"].get<std::string>(),
                triple(l["position"]), strength, l["enabled"].get<bool>() ? "" : ", off");
+  }
+  if (j["clips"].empty()) return;
+  fmt::print("{:<12} {}\n", "clips", j["clips"].size());
+  for (const Json& c : j["clips"]) {
+    fmt::print("  {:<18} {:.3f} s, {} channels{}{}\n", c["name"].get<std::string>(),
+               c["duration_s"].get<double>(), c["channels"].get<std::size_t>(),
+               c["path"].get<bool>() ? ", a path" : "", c["plays"].get<bool>() ? ", plays" : "");
   }
 }
 

@@ -19,6 +19,7 @@
 #include "laterna/light_color.h"
 #include "laterna/measure.h"
 #include "laterna/technique_choice.h"
+#include "laterna/turntable.h"
 #include "layer_pictures.h"
 #include "outcome.h"
 #include "progress_line.h"
@@ -58,7 +59,7 @@ struct RenderOptions {
   std::vector<std::string> layers;
   int samples = 1, anisotropy = 8, accumulate = 1;
   double noise = 0;
-  bool progressive = false, json = false;
+  bool progressive = false, turntable = false, json = false;
 };
 
 void list_all_techniques() {
@@ -253,6 +254,10 @@ class RenderCommand {
     if (options_.progressive && options_.output == "-")
       return "--progressive and -o - would write several pictures to standard output";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
+    if (options_.turntable && !options_.time.is_series())
+      return "--turntable needs --frames, over which it turns";
+    if (options_.turntable && !options_.view.from_light.empty())
+      return "--turntable turns a camera: leave --from-light out";
     if (options_.time.is_series() && !options_.layer_pictures.empty())
       return "--layer-pictures: with --frames, each frame's would replace the last one's; give an output "
              "that ends in .exr";
@@ -270,15 +275,31 @@ class RenderCommand {
       const Result<int> changed = renderer.set_time(output.seconds);
       if (!changed) return report(changed.error());
       is_first_ = &output == &outputs.front();
+      const auto turn = static_cast<double>(&output - outputs.data()) / static_cast<double>(outputs.size());
+      const Result<View> now = view_of_picture(renderer, settings, view, turn);
+      if (!now) return report(now.error());
       nlohmann::json picture = {
           {"output", output.file}, {"time_s", output.seconds}, {"films_changed", *changed}};
-      if (const int outcome = draw(renderer, view, settings, exposure, picture); outcome != kOk)
+      if (const int outcome = draw(renderer, *now, settings, exposure, picture); outcome != kOk)
         return outcome;
       if (options_.json) pictures.push_back(std::move(picture));
     }
     if (!options_.json) return kOk;
     fmt::print("{}\n", options_.time.is_series() ? pictures.dump(2) : pictures[0].dump(2));
     return kOk;
+  }
+
+  // `first`: the view of the series' first picture; `turn`: how far the series has come, 0 to 1.
+  [[nodiscard]] Result<View> view_of_picture(const Renderer& renderer, const RenderSettings& settings,
+                                             const View& first, double turn) {
+    if (is_first_) {
+      const Renderer::Box box = renderer.bounds();
+      turntable_centre_ws_ = 0.5 * (box.low_ws + box.high_ws);
+      return first;
+    }
+    const Result<View> view = options_.view.follow(renderer, {settings.width, settings.height}, first);
+    if (!view || !options_.turntable) return view;
+    return turned_about(*view, turntable_centre_ws_, turn);
   }
 
   // `told`: what there is to tell in JSON, with the "output" to write.
@@ -381,7 +402,8 @@ class RenderCommand {
   std::string output_;
   int threads_ = 0;
   double load_ms_ = 0;
-  bool is_first_ = true;  // picture of a series: what there is to remark is remarked once
+  glm::dvec3 turntable_centre_ws_{0};  // of the scene as it is in the first picture
+  bool is_first_ = true;               // picture of a series: what there is to remark is remarked once
 };
 
 constexpr const char* kFooter =
@@ -455,6 +477,8 @@ void declare_render(CLI::App& app, Run& run) {
       ->required();
   o.view.declare(*command);
   o.time.declare(*command);
+  command->add_flag("--turntable", o.turntable,
+                    "the camera goes round the scene's middle once while --frames run; lights stay");
   declare_picture_options(*command, o);
   std::vector<std::string> layers = {"all"};
   for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);
