@@ -319,7 +319,7 @@ class Animations::ClipReader {
                                                         {"CUBICSPLINE", KeyInterpolation::cubic_spline}})
             .value_or(KeyInterpolation::linear);
     read_times(object, keys);
-    read_values(object, keys, target, components);
+    if (faults_.error_count() == errors_before) read_values(object, keys, target, components);
     if (faults_.error_count() != errors_before || keys.times.empty()) return -1;
     known->second = static_cast<int>(clip_.keys.size());
     clip_.keys.push_back(std::move(keys));

@@ -88,7 +88,7 @@ const Case kCases[] = {
      "f.gltf: animations[0].channels[0].target: is missing"},
     {"TargetNodeMissing",
      {{"/animations/0/channels/0/target/node", "9"}},
-     "f.gltf: animations[0].channels[0].target.node: refers to nodes[9], but there are only 4"},
+     "f.gltf: animations[0].channels[0].target.node: refers to nodes[9], but the last is nodes[3]"},
     {"UnknownPath",
      {{"/animations/0/channels/0/target/path", "\"colour\""}},
      "f.gltf: animations[0].channels[0].target.path: expected translation, rotation, scale, weights or "
@@ -96,7 +96,7 @@ const Case kCases[] = {
      "got \"colour\""},
     {"SamplerMissing",
      {{"/animations/0/channels/0/sampler", "7"}},
-     "f.gltf: animations[0].channels[0].sampler: refers to samplers[7], but there are only 2"},
+     "f.gltf: animations[0].channels[0].sampler: refers to samplers[7], but the last is samplers[1]"},
     {"NodeWithAMatrix",
      {{"/animations/0/channels/0/target/node", "3"}},
      "f.gltf: animations[0].channels[0].target: nodes[3] has a matrix: only translation, rotation and scale "
@@ -118,7 +118,8 @@ const Case kCases[] = {
      "f.gltf: animations[0].samplers[0].output: the rotation of key 0 has no length"},
     {"UnknownInterpolation",
      {{"/animations/0/samplers/0/interpolation", "\"BEZIER\""}},
-     "f.gltf: animations[0].samplers[0].interpolation: expected LINEAR, STEP or CUBICSPLINE, got \"BEZIER\""},
+     "f.gltf: animations[0].samplers[0].interpolation: expected one of \"LINEAR\", \"STEP\", "
+     "\"CUBICSPLINE\", got \"BEZIER\""},
     {"PointerToNowhere",
      {{"/animations/0/channels/0/target",
        R"({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/materials/3/emissiveFactor"}}})"}},
@@ -146,7 +147,7 @@ const Case kCases[] = {
      "f.gltf: nodes[0].skin: its mesh is pulled by joint 1, but skins[0] has only 1"},
     {"SkinMissing",
      {{"/nodes/0/skin", "4"}},
-     "f.gltf: nodes[0].skin: refers to skins[4], but there is only 1"},
+     "f.gltf: nodes[0].skin: refers to skins[4], but the last is skins[0]"},
     {"WeightsMissing",
      {{"/meshes/0/primitives/0/attributes/WEIGHTS_0", ""}},
      "f.gltf: meshes[0].primitives[0].attributes.WEIGHTS_0: is missing"},
@@ -220,7 +221,7 @@ TEST(InvalidPaths, AreRefusedWithTheirMessages) {
   EXPECT_EQ(rig_messages(R"({"keys": [{"time": 0, "yfov_deg": 3}]})"),
             place + ".keys[0].yfov_deg: only what has a perspective frustum has a field of view");
   EXPECT_EQ(rig_messages(R"({"keys": [{"time": 0, "colour": 3}]})"),
-            place + ".keys[0].colour: a key has no such key (did you mean \"color\"?)");
+            place + ".keys[0].colour: a key has no key \"colour\" (did you mean \"color\"?)");
 }
 
 TEST(InvalidVertexFrames, ACutModelSaysWhereItEnds) {

@@ -17,8 +17,8 @@ namespace {
 
 // The model that Debian's assimp-testmodels and the shared scenes have.
 std::filesystem::path model() {
-  for (const std::filesystem::path folder : {std::filesystem::path("/usr/share/assimp/models/MD2"),
-                                             std::filesystem::path(LATERNA_SHARED_DIR) / "scenes/md2"}) {
+  for (const std::filesystem::path& folder : {std::filesystem::path("/usr/share/assimp/models/MD2"),
+                                              std::filesystem::path(LATERNA_SHARED_DIR) / "scenes/md2"}) {
     if (std::filesystem::exists(folder / "sydney.md2")) return folder / "sydney.md2";
   }
   return {};
@@ -134,7 +134,7 @@ TEST(MovingScenes, TheShadowFollowsThePose) {
   std::vector<float> before;
   for (const double time : {0.0, 0.25}) {
     ASSERT_TRUE(renderer.set_time(time));
-    settings.shadows = ShadowTechnique::map;
+    settings.shadows = ShadowTechnique::exact;
     const LayeredImage found = reference::render(renderer, camera, settings);
     settings.shadows = ShadowTechnique::raytraced;
     const LayeredImage truth = reference::render(renderer, camera, settings);
@@ -146,9 +146,9 @@ TEST(MovingScenes, TheShadowFollowsThePose) {
       differ += alpha[i] != truth.find("visibility.sun")->values[i] ? 1 : 0;
       changed += !before.empty() && alpha[i] != before[i] ? 1 : 0;
     }
-    EXPECT_GT(dark, 100);
+    EXPECT_GT(dark, 60);
     EXPECT_LE(differ, dark / 50);
-    if (!before.empty()) EXPECT_GT(changed, 20) << "it moves";
+    EXPECT_TRUE(before.empty() || changed > 20) << "it moves";
     before = alpha;
   }
 }
@@ -178,7 +178,7 @@ TEST(MovingScenes, ShadowsAndSlidesStayPutOnAMovingReceiver) {
   Renderer renderer = reference::make_renderer(scene);
   RenderSettings settings = reference::test_settings(120, 90);
   settings.layers = {Layer::visibility, Layer::uv, Layer::position};
-  const View camera = reference::look({0, 6, 5}, {0, 0, 0}, 40, 4.0 / 3);
+  const View camera = reference::look({0, 6, 4}, {0, 0, 0}, 30, 4.0 / 3);  // the carpet fills the picture
   const LayeredImage still = reference::render(renderer, camera, settings);
   for (const double time : {0.3, 0.9}) {
     ASSERT_TRUE(renderer.set_time(time));
@@ -193,7 +193,7 @@ TEST(MovingScenes, ShadowsAndSlidesStayPutOnAMovingReceiver) {
       EXPECT_EQ(moved.find("visibility.lantern")->values[i], alpha);
       for (const char* name : {"uv.lantern.u", "uv.lantern.v"}) {
         const float at = still.find(name)->values[i];
-        if (at == at) EXPECT_NEAR(moved.find(name)->values[i], at, 1e-5);
+        EXPECT_FALSE(std::abs(moved.find(name)->values[i] - at) > 1e-5F) << "NaN where no slide is";
       }
     }
     EXPECT_GT(shaded, 200);

@@ -111,9 +111,9 @@ TEST_P(AnimationFiles, VerticesAreWhereTheReferenceHasThem) {
         compared += found.size();
       }
     }
-    EXPECT_GT(compared, 100U);
-    // Single precision, of coordinates as large as these.
-    EXPECT_LT(worst, extent * 1.2e-7) << "clip " << clip;
+    EXPECT_GE(compared, 72U) << "six times a tetrahedron at least";
+    // Single precision, of coordinates as large as these, and of weights of morph targets.
+    EXPECT_LT(worst, extent * 2.4e-7) << "clip " << clip;
   }
 }
 

@@ -277,7 +277,8 @@ class Posed {
                                 m[8 + r] * positions[3 * v + 2] + m[12 + r]);
         }
       }
-      vertices.push_back(sum / total);
+      // But for rounding the file's weights add up to 1.
+      vertices.push_back(std::abs(total - 1) < 1e-6 ? sum : sum / total);
     }
     return vertices;
   }

@@ -278,18 +278,20 @@ RenderSettings small_settings() {
 const View kView = reference::look({3, 4, 5}, {0, 0, 0}, 45, 80.0 / 60);
 
 TEST(Posing, APictureIsThatOfARendererMadeAtTheTime) {
-  const Stage stage = moving_box();
-  Renderer moving = make_renderer(stage.scene);
-  std::optional<LayeredImage> at_rest;
-  for (const double time : {0.0, 0.25, 0.8, 0.3}) {
-    ASSERT_TRUE(moving.set_time(time));
-    RendererOptions options;
-    options.time = time;
-    const Renderer fresh = Renderer::create(stage.scene, options).value();
-    const LayeredImage picture = reference::render(moving, kView, small_settings());
-    EXPECT_TRUE(same_bits(picture, reference::render(fresh, kView, small_settings())));
-    if (at_rest) EXPECT_FALSE(same_bits(picture, *at_rest)) << "it does move";
-    if (!at_rest) at_rest = picture;
+  for (const bool casts_shadow : {true, false}) {
+    const Stage stage = moving_box(casts_shadow);
+    Renderer moving = make_renderer(stage.scene);
+    std::optional<LayeredImage> at_rest;
+    for (const double time : {0.0, 0.25, 0.8, 0.3}) {
+      ASSERT_TRUE(moving.set_time(time));
+      RendererOptions options;
+      options.time = time;
+      const Renderer fresh = Renderer::create(stage.scene, options).value();
+      const LayeredImage picture = reference::render(moving, kView, small_settings());
+      EXPECT_TRUE(same_bits(picture, reference::render(fresh, kView, small_settings())));
+      EXPECT_FALSE(at_rest && same_bits(picture, *at_rest)) << "it does move";
+      if (!at_rest) at_rest = picture;
+    }
   }
 }
 
