@@ -63,8 +63,9 @@ Result<FrameRate> parse_rate(const std::string& text) {
 }  // namespace
 
 void TimeOptions::declare(CLI::App& command) {
-  CLI::Option* one = command.add_option("--time", time, "scene time in seconds: films and clips are where they then are")
-                         ->capture_default_str();
+  CLI::Option* one =
+      command.add_option("--time", time, "scene time in seconds: films and clips are where they then are")
+          ->capture_default_str();
   command
       .add_option(
           "--frames", frames,

@@ -178,7 +178,7 @@ class AnimationCheck {
     if (channel.texture < 0 || channel.texture > 4)
       faults_.error(place + ".texture", fmt::format("expected 0 to 4, got {}", channel.texture));
     const KeyFrames& keys = clip.keys[static_cast<std::size_t>(channel.keys)];
-    std::size_t components = static_cast<std::size_t>(component_count(channel.property));
+    auto components = static_cast<std::size_t>(component_count(channel.property));
     const Node* node = channel.property <= AnimatedProperty::look_at
                            ? &scene_.nodes[static_cast<std::size_t>(channel.target)]
                            : nullptr;

@@ -247,7 +247,7 @@ class Animations::ClipReader {
     if (!target || sampler < 0) return;
     const std::vector<int> shown = scene_targets(*target);
     if (shown.empty()) return;
-    std::size_t components = static_cast<std::size_t>(component_count(target->property));
+    auto components = static_cast<std::size_t>(component_count(target->property));
     if (target->property == P::weights) {
       components = morph_target_count(scene_, shown.front());
       if (components == 0)
