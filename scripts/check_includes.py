@@ -29,6 +29,7 @@ ROOMS = {
 # The room that implements each header of include/laterna: who may include the room may include the header.
 PUBLIC_HEADERS = {
     "accuracy.h": "measure",
+    "animation.h": "scene",
     "build_info.h": "measure",
     "false_color.h": "measure",
     "film.h": "image",
@@ -52,6 +53,7 @@ PUBLIC_HEADERS = {
     "stages.h": "base",
     "technique_choice.h": "scene",
     "terrain.h": "scene",
+    "turntable.h": "base",
     "video.h": "image",
     "view.h": "base",
 }

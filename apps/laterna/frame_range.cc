@@ -64,8 +64,9 @@ Result<FrameRate> parse_rate(const std::string& text) {
 }  // namespace
 
 void TimeOptions::declare(CLI::App& command) {
-  CLI::Option* one = command.add_option("--time", time, "scene time in seconds, for slides that are films")
-                         ->capture_default_str();
+  CLI::Option* one =
+      command.add_option("--time", time, "scene time in seconds: films and clips are where they then are")
+          ->capture_default_str();
   command
       .add_option(
           "--frames", frames,

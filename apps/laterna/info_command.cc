@@ -24,6 +24,24 @@ struct Totals {
   glm::dvec3 low{0}, high{0};
 };
 
+// Where a skin's joints carry a vertex, at rest; without a skin, where its node does.
+glm::dvec3 place_vertex(const Scene& scene, const Node& node, const Primitive& primitive, std::size_t vertex,
+                        const std::vector<glm::dmat4>& world, const glm::dmat4& world_from_object) {
+  const glm::dvec4 position(primitive.positions[vertex], 1);
+  if (node.skin < 0 || primitive.influences == 0) return world_from_object * position;
+  const Skin& skin = scene.skins[static_cast<std::size_t>(node.skin)];
+  const auto influences = static_cast<std::size_t>(primitive.influences);
+  glm::dvec3 sum(0);
+  for (std::size_t k = vertex * influences; k < (vertex + 1) * influences; ++k) {
+    if (primitive.joint_weights[k] == 0) continue;
+    const std::size_t joint = primitive.joints[k];
+    const glm::dvec4 at =
+        world[static_cast<std::size_t>(skin.joints[joint])] * (skin.joint_from_bind[joint] * position);
+    sum += static_cast<double>(primitive.joint_weights[k]) * glm::dvec3(at);
+  }
+  return sum;
+}
+
 Totals count(const Scene& scene) {
   Totals totals;
   const std::vector<glm::dmat4> world = world_from_nodes(scene);
@@ -36,8 +54,8 @@ Totals count(const Scene& scene) {
       ++totals.objects;
       for (const Primitive& p : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
         totals.triangles += triangles_of(p);
-        for (const glm::vec3& v : p.positions) {
-          const glm::dvec3 w(m * glm::dvec4(v, 1));
+        for (std::size_t v = 0; v < p.positions.size(); ++v) {
+          const glm::dvec3 w = place_vertex(scene, node, p, v, world, m);
           totals.low = totals.vertices == 0 ? w : glm::min(totals.low, w);
           totals.high = totals.vertices == 0 ? w : glm::max(totals.high, w);
           ++totals.vertices;
@@ -111,6 +129,18 @@ Json describe_pictures(const Scene& scene) {
   return all;
 }
 
+Json describe_clips(const Scene& scene) {
+  Json all = Json::array();
+  for (const Clip& clip : scene.clips) {
+    all.push_back({{"name", clip.name},
+                   {"duration_s", duration(clip)},
+                   {"channels", clip.channels.size()},
+                   {"plays", clip.plays},
+                   {"path", clip.is_path}});
+  }
+  return all;
+}
+
 Json describe(const Scene& scene) {
   const Totals totals = count(scene);
   const std::vector<glm::dmat4> world = world_from_nodes(scene);
@@ -124,7 +154,9 @@ Json describe(const Scene& scene) {
             {"cameras", Json::array()},
             {"lights", Json::array()},
             {"materials", Json::array()},
-            {"pictures", describe_pictures(scene)}};
+            {"pictures", describe_pictures(scene)},
+            {"clips", describe_clips(scene)},
+            {"skins", scene.skins.size()}};
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
     const Node& node = scene.nodes[n];
     if (node.camera >= 0)
@@ -174,6 +206,13 @@ void print_table(const Json& j) {
                                                       : fmt::format("{:.4g} cd", l["candela"].get<double>());
     fmt::print("  {:<18} {:<12} at {}, {}{}\n", l["name"].get<std::string>(), l["type"].get<std::string>(),
                triple(l["position"]), strength, l["enabled"].get<bool>() ? "" : ", off");
+  }
+  if (j["clips"].empty()) return;
+  fmt::print("{:<12} {}\n", "clips", j["clips"].size());
+  for (const Json& c : j["clips"]) {
+    fmt::print("  {:<18} {:.3f} s, {} channels{}{}\n", c["name"].get<std::string>(),
+               c["duration_s"].get<double>(), c["channels"].get<std::size_t>(),
+               c["path"].get<bool>() ? ", a path" : "", c["plays"].get<bool>() ? ", plays" : "");
   }
 }
 

@@ -50,6 +50,7 @@ void put_plain_material(Scene& scene, int texture) {
 Scene scene_for(Use use, const Subject& subject) {
   Scene scene = subject.renderer.scene();
   scene.warnings.clear();
+  scene.clips.clear();  // it is posed as it is measured
   for (Light& light : scene.lights) light.enabled = false;
   const int picture = add_checks(scene);
   put_plain_material(scene, use == Use::texture ? picture : -1);

@@ -21,6 +21,7 @@
 #include "laterna/light_color.h"
 #include "laterna/measure.h"
 #include "laterna/technique_choice.h"
+#include "laterna/turntable.h"
 #include "layer_pictures.h"
 #include "outcome.h"
 #include "progress_line.h"
@@ -64,7 +65,7 @@ struct RenderOptions {
   std::vector<std::string> layers;
   int samples = 1, anisotropy = 8, accumulate = 1;
   double noise = 0;
-  bool progressive = false, resume = false, json = false;
+  bool progressive = false, resume = false, turntable = false, json = false;
 };
 
 void list_all_techniques() {
@@ -261,6 +262,10 @@ class RenderCommand {
       return "--progressive and -o - would write several pictures to standard output";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
     if (std::string fault = find_film_fault(settings); !fault.empty()) return fault;
+    if (options_.turntable && !options_.time.is_series())
+      return "--turntable needs --frames, over which it turns";
+    if (options_.turntable && !options_.view.from_light.empty())
+      return "--turntable turns a camera: leave --from-light out";
     if (options_.time.is_series() && !options_.layer_pictures.empty())
       return "--layer-pictures: with --frames, each frame's would replace the last one's; give an output "
              "that ends in .exr";
@@ -305,6 +310,8 @@ class RenderCommand {
     settings_ = settings;
     threads_ = renderer.threads();
     exposure_ = exposure;
+    const Renderer::Box box = renderer.bounds();
+    turntable_centre_ws_ = 0.5 * (box.low_ws + box.high_ws);
     const bool is_series = options_.time.is_series();
     const Interruption interruption(is_series);
     interruption_ = &interruption;
@@ -355,7 +362,7 @@ class RenderCommand {
     if (count == 0 || count == outputs.size()) return {};
     return check_finished(outputs[last], [&](const std::filesystem::path& file) -> Result<void> {
       FrameReport ignored;
-      Result<FinishedPicture> picture = draw(renderer, view, outputs[last], {}, ignored);
+      Result<FinishedPicture> picture = draw(renderer, view, outputs, last, {}, ignored);
       if (!picture) return tl::unexpected(std::move(picture.error()));
       return write_picture(std::move(picture->image), file, picture->exposure);
     });
@@ -375,7 +382,7 @@ class RenderCommand {
     Result<void> outcome;
     for (std::size_t i = 0; i < outputs.size() && outcome && interruption_->signal() == 0; ++i) {
       if (told[i].is_skipped) continue;
-      Result<FinishedPicture> picture = draw(renderer, view, outputs[i], progress, told[i]);
+      Result<FinishedPicture> picture = draw(renderer, view, outputs, i, progress, told[i]);
       if (picture) {
         queue.add(std::move(*picture));
         told[i].is_drawn = true;
@@ -417,15 +424,27 @@ class RenderCommand {
     }
   }
 
-  // `told` gets what there is to tell in JSON, but for what writing costs.
-  Result<FinishedPicture> draw(Renderer& renderer, const View& view, const TimedOutput& output,
-                               const Progress& progress, FrameReport& told) {
+  // The view of a frame for which the renderer's time is set. `first`: the series' first; `turn`: how far it has come, 0 to 1.
+  [[nodiscard]] Result<View> view_of_frame(const Renderer& renderer, const View& first, double turn) const {
+    if (turn == 0) return first;
+    const Result<View> view = options_.view.follow(renderer, {settings_.width, settings_.height}, first);
+    if (!view || !options_.turntable) return view;
+    return turned_about(*view, turntable_centre_ws_, turn);
+  }
+
+  // Frame number `index`. `first`: the view of number 0. `told` gets what there is to tell in JSON, but for what writing costs.
+  Result<FinishedPicture> draw(Renderer& renderer, const View& first, const std::vector<TimedOutput>& outputs,
+                               std::size_t index, const Progress& progress, FrameReport& told) {
+    const TimedOutput& output = outputs[index];
     const Result<int> changed = renderer.set_time(output.seconds);
     if (!changed) return tl::unexpected(changed.error());
+    const Result<View> view =
+        view_of_frame(renderer, first, static_cast<double>(index) / static_cast<double>(outputs.size()));
+    if (!view) return tl::unexpected(view.error());
     output_ = output.file;
     float exposure = exposure_;
     RenderStatistics statistics;
-    Result<LayeredImage> image = draw_image(renderer, view, progress, statistics);
+    Result<LayeredImage> image = draw_image(renderer, *view, progress, statistics);
     if (!image) return tl::unexpected(std::move(image.error()));
     if (shows_light()) {
       const bool is_automatic = exposure == 0;
@@ -528,7 +547,8 @@ class RenderCommand {
   float exposure_ = 1;  // 0: automatic
   int threads_ = 0;
   double load_ms_ = 0;
-  bool is_first_ = true;  // picture of a series: what there is to remark is remarked once
+  glm::dvec3 turntable_centre_ws_{0};  // of the scene as it is in the first picture
+  bool is_first_ = true;               // picture of a series: what there is to remark is remarked once
 };
 
 constexpr const char* kFooter =
@@ -605,11 +625,6 @@ void declare_render(CLI::App& app, Run& run) {
       ->required();
   o.view.declare(*command);
   o.time.declare(*command);
-  o.film.declare(*command);
-  command->add_flag(
-      "--resume", o.resume,
-      "of --frames: leave pictures that are there as they are; the last of them is drawn once more and\n"
-      "compared, so that frames of other settings do not mix");
   declare_picture_options(*command, o);
   std::vector<std::string> layers = {"all"};
   for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);

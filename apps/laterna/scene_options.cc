@@ -25,6 +25,10 @@ void SceneOptions::declare_scene(CLI::App& command) {
   command.add_option("--unit", unit, "what one unit is in formats that do not say")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}))
       ->capture_default_str();
+  command.add_option(
+      "--clip", clip,
+      "animation that plays: a name that laterna info tells, all or none; by default the first of "
+      "each file");
 }
 
 void SceneOptions::declare_machine(CLI::App& command) {
@@ -46,7 +50,11 @@ Result<Scene> SceneOptions::load() const {
   options.metres_per_unit = metres_per_unit();
   options.rigs.assign(rigs.begin(), rigs.end());
   Result<Scene> scene = load_scene({files.begin(), files.end()}, options);
-  if (scene) report_warnings(scene->warnings);
+  if (!scene) return scene;
+  report_warnings(scene->warnings);
+  if (clip.empty()) return scene;
+  const Result<void> chosen = choose_clip(*scene, clip);
+  if (!chosen) return tl::unexpected(bad_option("--clip: " + to_string(chosen.error())));
   return scene;
 }
 
@@ -127,6 +135,12 @@ Result<View> ViewOptions::find(const Renderer& renderer, const Size& picture) co
   if (view || !camera.empty()) return view;
   fmt::print(stderr, "laterna: note: the scene has no camera: showing all of it\n");
   return renderer.overview(picture.width, picture.height);
+}
+
+Result<View> ViewOptions::follow(const Renderer& renderer, const Size& picture, const View& first) const {
+  if (!from_light.empty()) return renderer.light_view(from_light);
+  Result<View> view = renderer.camera_view(camera, picture.width, picture.height);
+  return view || !camera.empty() ? view : first;
 }
 
 }  // namespace laterna::app

@@ -16,10 +16,11 @@ struct SceneOptions {
   std::vector<std::string> rigs;
   std::string up = "y";
   std::string unit = "m";
+  std::string clip;
   int threads = 0;
   std::string instruction_set;
 
-  /// SCENE..., --rig, --up, --unit.
+  /// SCENE..., --rig, --up, --unit, --clip.
   void declare_scene(CLI::App& command);
   /// --threads, --isa.
   void declare_machine(CLI::App& command);
@@ -45,6 +46,8 @@ struct ViewOptions {
   [[nodiscard]] Result<Size> parse_size() const;
   /// The named camera; the first; without one, an overview. Tells which, where none was asked for.
   [[nodiscard]] Result<View> find(const Renderer& renderer, const Size& size) const;
+  /// The same at another time than when `first` was found, without a word: cameras and lights move, an overview stays.
+  [[nodiscard]] Result<View> follow(const Renderer& renderer, const Size& size, const View& first) const;
 };
 
 /// An error about an option.

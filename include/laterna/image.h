@@ -66,7 +66,7 @@ inline constexpr int kMaxImageSide = 65536;
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 30;
 
 /// Decodes PNG (1–16 bit, grey, palette, RGB, with or without alpha, interlaced), JPEG (grey, RGB), GIF (the
-/// first frame), BMP (RLE too), TGA, PNM (P1 … P6), Radiance HDR, OpenEXR (RGB[A] or Y[A] of the first part)
+/// first frame), BMP (RLE too), TGA, PCX, PNM (P1 … P6), Radiance HDR, OpenEXR (RGB[A] or Y[A] of the first part)
 /// or PFM. The kind is told from the bytes; the name decides only for TGA, which has no signature. Transfer:
 /// sRGB for 8- and 16-bit files, linear for HDR, EXR and PFM. Palettes become RGB, a transparent colour
 /// becomes alpha; colour profiles, gamma and EXIF orientation are not applied. A file that ends before its

@@ -135,6 +135,13 @@ struct RenderStatistics {
   std::vector<SilhouetteWork> silhouettes;
 };
 
+/// What changes of time have made anew.
+struct PosingStatistics {
+  std::uint64_t primitives_posed = 0;  ///< instances of primitives whose vertices were calculated again
+  std::uint64_t casters_moved = 0;     ///< changes of time that moved something which casts shadows
+  std::uint64_t vertices_posed = 0;
+};
+
 struct RendererOptions {
   int threads = 0;                                ///< 0: one per processor
   std::optional<InstructionSet> instruction_set;  ///< unset: the best this machine has
@@ -214,12 +221,21 @@ class Renderer {
   /// Sets Photograph::gain of every photograph, in their order. Not to be called during a render.
   /// Error: another number of gains than photographs, or one that is not finite and above 0.
   Result<void> set_photograph_gains(std::span<const glm::vec3> gains);
-  /// Scene time in seconds, within ±kMaxSceneTime: every film shows its frame of that time. Returns how many films show
-  /// another frame than before; nothing else is made anew, shadow maps are kept. Frames at evenly spaced times, forward or
-  /// backward, are made ready ahead. Not to be called during a render. Error: a frame that cannot be read; the time and
-  /// all films then stay as they were.
+  /// Scene time in seconds, within ±kMaxSceneTime: every film shows its frame of that time, and what clips move is where it
+  /// then is: a picture is the one that a renderer made at that time draws, bit for bit. Returns how many films show another
+  /// frame than before. Only what moved is made anew; shadow maps are kept where no caster did. Frames of films at evenly
+  /// spaced times, forward or backward, are made ready ahead. Not to be called during a render. Error: a frame that cannot be
+  /// read, or something moves farther out than kMaxCoordinate; the time and everything else then stay as they were.
   Result<int> set_time(double seconds);
   [[nodiscard]] double time() const;
+  /// What it has cost since the renderer was made.
+  [[nodiscard]] PosingStatistics posing_statistics() const;
+
+  /// The box around all surfaces, as they are posed now. Empty scenes: low = high = 0.
+  struct Box {
+    glm::dvec3 low_ws{0}, high_ws{0};
+  };
+  [[nodiscard]] Box bounds() const;
 
   /// The depth maps of a light's shadow maps: one, or six for a light that shines all round. Channel "Z": metres along
   /// the map's axis, +infinity where nothing is. `statistics`: what drawing cost, up to the conversion to metres.

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "laterna/animation.h"
 #include "laterna/film.h"
 #include "laterna/image.h"
 #include "laterna/lens.h"
@@ -86,6 +87,13 @@ struct Primitive {
   std::vector<glm::vec4> colors;       ///< linear, multiply the base colour
   std::vector<std::uint32_t> indices;  ///< three per triangle; empty: positions come in triples
   int material = -1;                   ///< −1: glTF's default material, white
+  // How vertices move (laterna/animation.h). Normals and tangents move along, where they are given.
+  std::vector<MorphTarget> targets;  ///< Node::weights says how far toward each
+  /// Of each vertex in turn, the joints of the node's skin that pull it, and how much: as many as `influences` each. Weights
+  /// are not negative and add up to 1.
+  int influences = 0;
+  std::vector<std::uint16_t> joints;
+  std::vector<float> joint_weights;
 };
 
 struct Mesh {
@@ -228,7 +236,11 @@ struct Node {
   int mesh = -1, camera = -1, light = -1;      ///< indices into the scene's lists
   std::vector<glm::dmat4> node_from_instance;  ///< EXT_mesh_gpu_instancing; empty: the mesh once
   bool casts_shadow = true, receives_shadow = true;
-  bool visible = true;  ///< to cameras; an invisible node may still cast
+  bool visible = true;         ///< to cameras; an invisible node may still cast
+  std::vector<float> weights;  ///< of its mesh's morph targets; missing ones are 0
+  int skin = -1;               ///< index into Scene::skins; its mesh is then placed by the joints alone
+  /// What parent_from_node was made of; a node that clips move by parts needs it.
+  std::optional<Transform> transform;
 };
 
 /// The `phong` model's highlight: k_s (n·h)^shininess, for every surface. Unset: from each material's roughness.
@@ -250,6 +262,8 @@ struct Scene {
   std::optional<PhongHighlight> phong;
   std::vector<Photograph> photographs;  ///< where there are any, surfaces show their colours
   PhotographSettings photograph_settings;
+  std::vector<Skin> skins;
+  std::vector<Clip> clips;  ///< of files, the first of each plays; later ones win where two move the same
   std::vector<Diagnostic> warnings;  ///< what was left out or guessed while reading
 };
 

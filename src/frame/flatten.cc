@@ -1,24 +1,15 @@
 #include "frame/flatten.h"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <memory>
+
+#include "frame/vertex_pose.h"
+#include "scene/scene_pose.h"
 
 namespace laterna::frame {
 namespace {
-
-/// One instance of a primitive, with its place in the frame's arrays.
-struct PlacedPart {
-  const Primitive* primitive;
-  const ClusteredPrimitive* clustered;
-  glm::dmat4 world_from_object;
-  std::uint32_t object;
-  std::uint32_t surface;
-  std::uint32_t flags;
-  std::uint32_t first_cluster = 0, first_vertex = 0;
-  ClusterStreams streams;
-};
 
 std::uint32_t material_flags(const Scene& scene, int material) {
   if (material < 0) return 0;
@@ -34,32 +25,45 @@ std::uint32_t node_flags(const Node& node) {
          (node.visible ? kVisible : 0U);
 }
 
+std::shared_ptr<const MeshPose> pose_of(const Scene& scene, const Node& node,
+                                        const glm::dmat4& world_from_object,
+                                        const std::vector<glm::dmat4>& world_from_node) {
+  MeshPose pose{world_from_object, {}, node.weights};
+  if (node.skin >= 0)
+    pose.world_from_bind = joint_matrices(scene.skins[static_cast<std::size_t>(node.skin)], world_from_node);
+  return std::make_shared<const MeshPose>(std::move(pose));
+}
+
+// Every instance of every primitive; `moves`: at [part], whether its node does. Empty: none.
 std::vector<PlacedPart> place_parts(const Scene& scene, const ClusteredMeshes& meshes,
-                                    const std::vector<glm::dmat4>& world_from_node, Frame& frame) {
+                                    const std::vector<glm::dmat4>& world_from_node, Frame& frame,
+                                    std::vector<bool>& moves) {
   const auto default_surface = static_cast<std::uint32_t>(scene.materials.size());
+  const std::vector<bool> node_moves = moving_nodes(scene);
   std::vector<PlacedPart> placed;
-  for_each_object(
-      scene, world_from_node,
-      [&](const Node& node, std::size_t instance, const glm::dmat4& world_from_object) {
-        const auto object = static_cast<std::uint32_t>(frame.object_names.size());
-        const auto mesh = static_cast<std::size_t>(node.mesh);
-        std::string name = node.name.empty() ? scene.meshes[mesh].name : node.name;
-        if (!node.node_from_instance.empty()) name += "[" + std::to_string(instance) + "]";
-        frame.object_names.push_back(std::move(name));
-        for (std::size_t p = 0; p < meshes[mesh].size(); ++p) {
-          const Primitive& primitive = scene.meshes[mesh].primitives[p];
-          placed.push_back(
-              {&primitive,
-               &meshes[mesh][p],
-               world_from_object,
-               object,
-               primitive.material < 0 ? default_surface : static_cast<std::uint32_t>(primitive.material),
-               node_flags(node) | material_flags(scene, primitive.material),
-               0,
-               0,
-               {}});
-        }
-      });
+  for_each_object(scene, world_from_node,
+                  [&](const Node& node, std::size_t instance, const glm::dmat4& world_from_object) {
+                    const auto object = static_cast<std::uint32_t>(frame.object_names.size());
+                    const auto mesh = static_cast<std::size_t>(node.mesh);
+                    std::string name = node.name.empty() ? scene.meshes[mesh].name : node.name;
+                    if (!node.node_from_instance.empty()) name += "[" + std::to_string(instance) + "]";
+                    frame.object_names.push_back(std::move(name));
+                    const auto pose = pose_of(scene, node, world_from_object, world_from_node);
+                    for (std::size_t p = 0; p < meshes[mesh].size(); ++p) {
+                      const Primitive& primitive = scene.meshes[mesh].primitives[p];
+                      PlacedPart part;
+                      part.primitive = &primitive;
+                      part.clustered = &meshes[mesh][p];
+                      part.pose = pose;
+                      part.object = object;
+                      part.surface = primitive.material < 0 ? default_surface
+                                                            : static_cast<std::uint32_t>(primitive.material);
+                      part.flags = node_flags(node) | material_flags(scene, primitive.material);
+                      placed.push_back(std::move(part));
+                      if (!node_moves.empty())
+                        moves.push_back(node_moves[static_cast<std::size_t>(&node - scene.nodes.data())]);
+                    }
+                  });
   return placed;
 }
 
@@ -108,12 +112,15 @@ void lay_out(std::vector<PlacedPart>& placed, Frame& frame) {
 class PartWriter {
  public:
   PartWriter(const PlacedPart& placed, Frame& frame)
-      : placed_(placed),
-        frame_(frame),
-        normal_matrix_(glm::transpose(glm::inverse(glm::dmat3(placed.world_from_object)))),
-        is_mirrored_(is_mirroring(placed.world_from_object)) {}
+      : placed_(placed), frame_(frame), is_mirrored_(is_mirroring(placed.pose->world_from_object)) {}
 
   void write() {
+    write_vertices();
+    write_attributes();
+    write_clusters();
+  }
+  /// What another pose changes.
+  void rewrite() {
     write_vertices();
     write_clusters();
   }
@@ -122,18 +129,28 @@ class PartWriter {
   void write_vertices() {
     const Primitive& primitive = *placed_.primitive;
     const std::vector<std::uint32_t>& source = placed_.clustered->source_vertices;
-    const glm::dmat3 linear(placed_.world_from_object);
-    const glm::dvec3 offset(placed_.world_from_object[3]);
+    VertexPoser poser(primitive, *placed_.pose);
+    const bool has_normals = placed_.streams.normal != kNoStream;
+    const bool has_tangents = placed_.streams.tangent != kNoStream;
     for (std::size_t i = 0; i < source.size(); ++i) {
-      const glm::dvec3 p = linear * glm::dvec3(primitive.positions[source[i]]) + offset;
-      put(frame_.x_ws, frame_.y_ws, frame_.z_ws, placed_.first_vertex + i, p);
-    }
-    if (placed_.streams.normal != kNoStream) {
-      for (std::size_t i = 0; i < source.size(); ++i) {
+      poser.select(source[i]);
+      put(frame_.x_ws, frame_.y_ws, frame_.z_ws, placed_.first_vertex + i, poser.position_ws());
+      if (has_normals) {
         put(frame_.normal_x_ws, frame_.normal_y_ws, frame_.normal_z_ws, placed_.streams.normal + i,
-            unit(normal_matrix_ * glm::dvec3(primitive.normals[source[i]])));
+            poser.normal_ws());
       }
+      if (!has_tangents) continue;
+      const std::size_t at = placed_.streams.tangent + i;
+      put(frame_.tangent_x_ws, frame_.tangent_y_ws, frame_.tangent_z_ws, at, poser.tangent_ws());
+      // The bitangent is sign · cross(normal, tangent); a mirrored instance turns the cross product round.
+      const float sign = primitive.tangents[source[i]].w;
+      frame_.tangent_sign[at] = is_mirrored_ ? -sign : sign;
     }
+  }
+
+  void write_attributes() {
+    const Primitive& primitive = *placed_.primitive;
+    const std::vector<std::uint32_t>& source = placed_.clustered->source_vertices;
     for (std::size_t set = 0; set < 2; ++set) {
       if (placed_.streams.uv[set] == kNoStream) continue;
       for (std::size_t i = 0; i < source.size(); ++i) {
@@ -142,7 +159,6 @@ class PartWriter {
       }
     }
     if (placed_.streams.color != kNoStream) write_colors(source);
-    if (placed_.streams.tangent != kNoStream) write_tangents(source, linear);
   }
 
   void write_colors(const std::vector<std::uint32_t>& source) {
@@ -150,16 +166,6 @@ class PartWriter {
       const glm::vec4& c = placed_.primitive->colors[source[i]];
       const std::size_t at = placed_.streams.color + i;
       frame_.color_r[at] = c.r, frame_.color_g[at] = c.g, frame_.color_b[at] = c.b, frame_.color_a[at] = c.a;
-    }
-  }
-
-  void write_tangents(const std::vector<std::uint32_t>& source, const glm::dmat3& linear) {
-    for (std::size_t i = 0; i < source.size(); ++i) {
-      const glm::vec4& t = placed_.primitive->tangents[source[i]];
-      const std::size_t at = placed_.streams.tangent + i;
-      put(frame_.tangent_x_ws, frame_.tangent_y_ws, frame_.tangent_z_ws, at, unit(linear * glm::dvec3(t)));
-      // The bitangent is sign · cross(normal, tangent); a mirrored instance turns the cross product round.
-      frame_.tangent_sign[at] = is_mirrored_ ? -t.w : t.w;
     }
   }
 
@@ -204,11 +210,6 @@ class PartWriter {
     }
   }
 
-  static glm::dvec3 unit(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0 ? v / length : glm::dvec3(0, 0, 0);
-  }
-
   static void put(AlignedVector<float>& x, AlignedVector<float>& y, AlignedVector<float>& z, std::size_t i,
                   const glm::dvec3& v) {
     x[i] = static_cast<float>(v.x);
@@ -218,7 +219,6 @@ class PartWriter {
 
   const PlacedPart& placed_;
   Frame& frame_;
-  glm::dmat3 normal_matrix_;
   bool is_mirrored_;
 };
 
@@ -232,6 +232,16 @@ Bounds bounds_of(const std::vector<Cluster>& clusters) {
     bounds.is_empty = false;
   }
   return bounds;
+}
+
+}  // namespace
+
+namespace {
+
+// Whether a skin has a hold on it.
+bool is_pulled(const Mesh& mesh) {
+  return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                     [](const Primitive& primitive) { return primitive.influences > 0; });
 }
 
 }  // namespace
@@ -254,6 +264,12 @@ void for_each_object(const Scene& scene, const std::vector<glm::dmat4>& world_fr
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
     const Node& node = scene.nodes[n];
     if (node.mesh < 0) continue;
+    if (node.skin >= 0 && is_pulled(scene.meshes[static_cast<std::size_t>(node.mesh)])) {
+      const Skin& skin = scene.skins[static_cast<std::size_t>(node.skin)];
+      visit(node, 0,
+            world_from_node[static_cast<std::size_t>(skin.joints.front())] * skin.joint_from_bind.front());
+      continue;
+    }
     if (node.node_from_instance.empty()) visit(node, 0, world_from_node[n]);
     for (std::size_t k = 0; k < node.node_from_instance.size(); ++k)
       visit(node, k, world_from_node[n] * node.node_from_instance[k]);
@@ -266,7 +282,8 @@ bool is_mirroring(const glm::dmat4& world_from_object) {
 
 void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
                     const std::vector<glm::dmat4>& world_from_node, const TaskPool& pool, Frame& frame) {
-  std::vector<PlacedPart> placed = place_parts(scene, meshes, world_from_node, frame);
+  std::vector<bool> moves;
+  std::vector<PlacedPart> placed = place_parts(scene, meshes, world_from_node, frame, moves);
   lay_out(placed, frame);
   pool.for_each(placed.size(), [&](std::size_t i, int) { PartWriter(placed[i], frame).write(); });
   frame.bounds = bounds_of(frame.clusters);
@@ -275,6 +292,38 @@ void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
   frame.has_blended_casters = std::any_of(frame.clusters.begin(), frame.clusters.end(), is_blended_caster);
   frame.all_receive_shadows = std::all_of(frame.clusters.begin(), frame.clusters.end(),
                                           [](const Cluster& c) { return (c.flags & kReceivesShadow) != 0; });
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    if (moves[i]) frame.moving_parts.push_back(std::move(placed[i]));
+  }
+}
+
+Reposed repose_meshes(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
+                      const TaskPool& pool, Frame& frame) {
+  std::vector<PlacedPart*> moved;
+  const std::vector<bool> node_moves = moving_nodes(scene);
+  if (node_moves.empty()) return {};
+  auto part = frame.moving_parts.begin();
+  for_each_object(scene, world_from_node,
+                  [&](const Node& node, std::size_t /*instance*/, const glm::dmat4& world_from_object) {
+                    if (!node_moves[static_cast<std::size_t>(&node - scene.nodes.data())]) return;
+                    const auto pose = pose_of(scene, node, world_from_object, world_from_node);
+                    const std::size_t parts =
+                        scene.meshes[static_cast<std::size_t>(node.mesh)].primitives.size();
+                    for (std::size_t p = 0; p < parts; ++p, ++part) {
+                      if (*part->pose == *pose) continue;
+                      part->pose = pose;
+                      moved.push_back(&*part);
+                    }
+                  });
+  pool.for_each(moved.size(), [&](std::size_t i, int) { PartWriter(*moved[i], frame).rewrite(); });
+  Reposed reposed;
+  reposed.parts = moved.size();
+  for (const PlacedPart* rewritten : moved) {
+    reposed.vertices += rewritten->clustered->source_vertices.size();
+    reposed.moves_casters |= (rewritten->flags & kCastsShadow) != 0;
+  }
+  if (!moved.empty()) frame.bounds = bounds_of(frame.clusters);
+  return reposed;
 }
 
 }  // namespace laterna::frame

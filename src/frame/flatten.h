@@ -12,15 +12,20 @@ namespace laterna::frame {
 std::size_t count_clusters(const Scene& scene, const ClusteredMeshes& meshes);
 
 /// Calls visit(node, instance, world_from_object) for each instance of a mesh, in the order of the frame's objects; its
-/// primitives follow one another in the order of the frame's clusters.
+/// primitives follow one another in the order of the frame's clusters. world_from_object of a mesh with a skin is its first
+/// joint's.
 void for_each_object(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
                      const std::function<void(const Node& node, std::size_t instance,
                                               const glm::dmat4& world_from_object)>& visit);
 /// Whether an instance turns its triangles round: their second and third corners are then swapped.
 bool is_mirroring(const glm::dmat4& world_from_object);
 
-/// Fills the frame's vertices, corners, clusters, streams, object names and bounds.
+/// Fills the frame's vertices, corners, clusters, streams, object names, moving parts and bounds.
 void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
                     const std::vector<glm::dmat4>& world_from_node, const TaskPool& pool, Frame& frame);
+
+/// Writes those of the frame's moving parts anew whose pose has changed, and the bounds.
+Reposed repose_meshes(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
+                      const TaskPool& pool, Frame& frame);
 
 }  // namespace laterna::frame

@@ -59,16 +59,10 @@ Result<Frame> Frame::build(const Scene& scene, std::shared_ptr<const TextureLibr
                            const ClusteredMeshes& meshes, const TaskPool& pool) {
   Frame frame;
   frame.textures = std::move(textures);
-  for (const Material& material : scene.materials)
-    frame.surfaces.push_back(make_surface(material, *frame.textures));
-  frame.surfaces.push_back(make_surface(Material{}, *frame.textures));
+  frame.make_surfaces(scene);
   for (const Photograph& photograph : scene.photographs) {
     frame.photographs.push_back(
         {&photograph, frame.textures->find(photograph.picture, image::MipUse::colour_with_alpha)});
-  }
-  // Photographs hold the light that they were taken in.
-  if (!scene.photographs.empty() && !scene.photograph_settings.are_lit) {
-    for (Surface& surface : frame.surfaces) surface.unlit = true;
   }
   if (const std::size_t clusters = count_clusters(scene, meshes); clusters > kMaxClusters) {
     return tl::unexpected(
@@ -84,6 +78,25 @@ Result<Frame> Frame::build(const Scene& scene, std::shared_ptr<const TextureLibr
   }
   frame.place_lights_and_cameras(scene);
   return frame;
+}
+
+void Frame::make_surfaces(const Scene& scene) {
+  surfaces.clear();
+  for (const Material& material : scene.materials) surfaces.push_back(make_surface(material, *textures));
+  surfaces.push_back(make_surface(Material{}, *textures));
+  // Photographs hold the light that they were taken in.
+  if (!scene.photographs.empty() && !scene.photograph_settings.are_lit) {
+    for (Surface& surface : surfaces) surface.unlit = true;
+  }
+}
+
+Result<Reposed> Frame::repose(const Scene& scene, const TaskPool& pool) {
+  const Reposed reposed = repose_meshes(scene, world_from_nodes(scene), pool, *this);
+  if (reposed.parts == 0) return reposed;
+  if (std::vector<Diagnostic> faults = find_far_objects(*this); !faults.empty()) {
+    return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+  }
+  return reposed;
 }
 
 void Frame::place_lights_and_cameras(const Scene& scene) {

@@ -16,6 +16,7 @@
 #include "frame/cluster_builder.h"
 #include "frame/slide_lens.h"
 #include "frame/texture_library.h"
+#include "frame/vertex_pose.h"
 #include "laterna/scene.h"
 
 namespace laterna::frame {
@@ -79,12 +80,36 @@ struct Bounds {
   bool is_empty = true;
 };
 
+/// An instance of a primitive that may move: what it was made of, its pose, and its place in the frame's arrays.
+struct PlacedPart {
+  const Primitive* primitive = nullptr;
+  const ClusteredPrimitive* clustered = nullptr;
+  std::shared_ptr<const MeshPose> pose;  ///< shared by the primitives of an object
+  std::uint32_t object = 0, surface = 0, flags = 0;
+  std::uint32_t first_cluster = 0, first_vertex = 0;
+  ClusterStreams streams;
+};
+
+/// What a change of poses has made anew.
+struct Reposed {
+  std::size_t parts = 0, vertices = 0;
+  bool moves_casters = false;
+};
+
 class Frame {
  public:
   /// The scene must have passed validate(), and outlive the frame. `textures` and `meshes` are the scene's.
   /// Error: an instance lies farther out than kMaxCoordinate, or there are more than kMaxClusters clusters.
   static Result<Frame> build(const Scene& scene, std::shared_ptr<const TextureLibrary> textures,
                              const ClusteredMeshes& meshes, const TaskPool& pool);
+
+  /// Takes the scene's nodes and morph weights as they are now: instances whose pose is another than before get new vertices
+  /// and bounds; everything else stays. The result is the frame that build() would make. Error: as build(); the frame then
+  /// holds the new pose all the same.
+  Result<Reposed> repose(const Scene& scene, const TaskPool& pool);
+
+  /// Materials as the scene has them now.
+  void make_surfaces(const Scene& scene);
 
   /// Puts lights and cameras where the scene has them now; the rest of the frame stays.
   void place_lights_and_cameras(const Scene& scene);
@@ -118,6 +143,7 @@ class Frame {
   std::vector<PlacedCamera> cameras;
   std::vector<PlacedPhotograph> photographs;
   Bounds bounds;
+  std::vector<PlacedPart> moving_parts;  // of nodes that clips move; in the order of objects
   bool has_blending = false;
   bool has_blended_casters = false;
   bool all_receive_shadows = true;

@@ -12,10 +12,10 @@
 namespace laterna::image {
 namespace {
 
-// TGA comes last: it has no signature, and its decoder goes by the name.
-constexpr std::array kDecoders = {&kPngDecoder,      &kJpegDecoder, &kExrDecoder,
-                                  &kRadianceDecoder, &kPfmDecoder,  &kNetpbmDecoder,
-                                  &kGifDecoder,      &kBmpDecoder,  &kTgaDecoder};
+// PCX and TGA come last: they have no signature to speak of, and their decoders go by the name.
+constexpr std::array kDecoders = {&kPngDecoder, &kJpegDecoder,   &kExrDecoder, &kRadianceDecoder,
+                                  &kPfmDecoder, &kNetpbmDecoder, &kGifDecoder, &kBmpDecoder,
+                                  &kPcxDecoder, &kTgaDecoder};
 
 // Formats that people are likely to try, so that the message can name what they have.
 struct KnownSignature {
@@ -52,9 +52,10 @@ Result<const Decoder*> find_decoder(const EncodedPicture& encoded) {
   const auto found = std::find_if(kDecoders.begin(), kDecoders.end(),
                                   [&](const Decoder* decoder) { return decoder->recognises(encoded); });
   if (found != kDecoders.end()) return *found;
-  return unreadable(encoded, {},
-                    "expected a PNG, JPEG, GIF, BMP, TGA, PNM, PFM, Radiance HDR or OpenEXR picture, found " +
-                        describe_content(encoded.bytes));
+  return unreadable(
+      encoded, {},
+      "expected a PNG, JPEG, GIF, BMP, TGA, PCX, PNM, PFM, Radiance HDR or OpenEXR picture, found " +
+          describe_content(encoded.bytes));
 }
 
 std::string size_text(const ImageHeader& header) {

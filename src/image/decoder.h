@@ -29,8 +29,8 @@ struct Decoder {
   Result<Image> (*decode)(const EncodedPicture&, const ImageHeader&);
 };
 
-extern const Decoder kPngDecoder, kJpegDecoder, kGifDecoder, kBmpDecoder, kTgaDecoder, kNetpbmDecoder,
-    kPfmDecoder, kRadianceDecoder, kExrDecoder;
+extern const Decoder kPngDecoder, kJpegDecoder, kGifDecoder, kBmpDecoder, kTgaDecoder, kPcxDecoder,
+    kNetpbmDecoder, kPfmDecoder, kRadianceDecoder, kExrDecoder;
 
 /// The header, its size within the limits.
 Result<ImageHeader> read_checked_header(const Decoder& decoder, const EncodedPicture& encoded);

@@ -221,10 +221,12 @@ Result<AccuracyReport> measure_all(const Renderer& renderer, const View& view, A
   settings.lights = std::move(*lights);
   Scene scene = renderer.scene();
   scene.warnings.clear();
+  scene.clips.clear();  // it is posed as it is measured
   for (Light& light : scene.lights) {
     if (settings.resolution > 0) light.shadow.resolution = settings.resolution;
   }
-  Result<Renderer> own = Renderer::create(std::move(scene), {renderer.threads(), renderer.instruction_set()});
+  Result<Renderer> own =
+      Renderer::create(std::move(scene), {renderer.threads(), renderer.instruction_set(), renderer.time()});
   if (!own) return tl::unexpected(std::move(own.error()));
   return Measurement(std::move(*own), view, settings, progress).run();
 }

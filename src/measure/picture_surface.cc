@@ -9,6 +9,7 @@ namespace {
 
 // Normals of triangles, seen through the same cut-outs, and nothing that only colours them.
 Scene with_flat_normals(Scene scene) {
+  scene.clips.clear();  // it is posed as it is seen
   for (Mesh& mesh : scene.meshes) {
     for (Primitive& primitive : mesh.primitives) {
       primitive.normals.clear();
@@ -67,8 +68,8 @@ bool PictureSurface::is_continuous(std::size_t a, std::size_t b) const {
 
 Result<PictureSurface> draw_picture_surface(const Renderer& renderer, const View& view,
                                             const RenderSettings& settings) {
-  const Result<Renderer> flat =
-      Renderer::create(with_flat_normals(renderer.scene()), {renderer.threads(), renderer.instruction_set()});
+  const Result<Renderer> flat = Renderer::create(
+      with_flat_normals(renderer.scene()), {renderer.threads(), renderer.instruction_set(), renderer.time()});
   if (!flat) return tl::unexpected(flat.error());
   const Result<Geometry> seen = draw_geometry(renderer, view, settings);
   if (!seen) return tl::unexpected(seen.error());

@@ -24,6 +24,7 @@
 #include "render/scene_defaults.h"
 #include "render/settings_check.h"
 #include "render/shadow_casting.h"
+#include "scene/scene_pose.h"
 
 namespace laterna {
 
@@ -55,6 +56,13 @@ constexpr int kFewestPictures = 8;
 // Sorted triangles kept from picture to picture, so that their memory is touched only once.
 constexpr std::size_t kIdleBinMemory = std::size_t{256} << 20U;
 
+// Whether two states of a material let light through alike, where it lets any through.
+bool same_cut_outs(const frame::Surface& a, const frame::Surface& b) {
+  if (a.alpha_mode == AlphaMode::opaque) return true;
+  return a.alpha_cutoff == b.alpha_cutoff && a.base_color == b.base_color &&
+         a.base_color_texture.uv_from_mesh_uv == b.base_color_texture.uv_from_mesh_uv;
+}
+
 // The door of every call that may need much memory.
 template <class Work>
 auto guarded(Work work) -> decltype(work()) {
@@ -70,7 +78,10 @@ struct Renderer::Implementation {
       : scene(std::move(s)),
         pool(options.threads),
         set(options.instruction_set.value_or(best_instruction_set())),
-        time(options.time) {}
+        time(options.time),
+        poses(scene) {
+    poses.apply(scene, time);
+  }
 
   // Pictures are decoded and triangles cut into clusters at the same time.
   Result<void> load() {
@@ -95,6 +106,12 @@ struct Renderer::Implementation {
     Result<frame::Frame> built = frame::Frame::build(scene, textures, meshes, pool);
     if (!built) return tl::unexpected(std::move(built.error()));
     frame = std::move(*built);
+    forget_casters();
+    return {};
+  }
+
+  // What is known of casters is of how they were.
+  void forget_casters() {
     ++casters_revision;
     const std::lock_guard lock(casters_mutex);
     rays.reset();
@@ -102,11 +119,41 @@ struct Renderer::Implementation {
     panes.reset();
     neighbours.reset();
     feathers.clear();
-    return {};
   }
 
-  // Whether a mesh hangs on the node or below it.
+  // Everything that clips move, where it is at a time. Lights and cameras are still to be placed.
+  Result<PoseChanges> pose(double seconds) {
+    const PoseChanges changes = poses.apply(scene, seconds);
+    bool casters_changed = false;
+    if (changes.materials) {
+      const std::vector<frame::Surface> before = frame.surfaces;
+      frame.make_surfaces(scene);
+      casters_changed = !std::equal(before.begin(), before.end(), frame.surfaces.begin(), same_cut_outs);
+    }
+    if (changes.nodes) {
+      const Result<frame::Reposed> reposed = frame.repose(scene, pool);
+      if (!reposed) {
+        // As it was before, which was sound.
+        poses.apply(scene, time);
+        frame.make_surfaces(scene);
+        static_cast<void>(frame.repose(scene, pool));
+        forget_casters();
+        return tl::unexpected(reposed.error());
+      }
+      posing.primitives_posed += reposed->parts;
+      posing.vertices_posed += reposed->vertices;
+      casters_changed |= reposed->moves_casters;
+    }
+    if (casters_changed) {
+      ++posing.casters_moved;
+      forget_casters();
+    }
+    return changes;
+  }
+
+  // Whether a mesh hangs on the node or below it, or may hang on it by a skin.
   [[nodiscard]] bool carries_mesh(int node) const {
+    if (!scene.skins.empty()) return true;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
       if (scene.nodes[i].mesh < 0) continue;
       for (int n = static_cast<int>(i); n >= 0; n = scene.nodes[static_cast<std::size_t>(n)].parent) {
@@ -251,10 +298,12 @@ struct Renderer::Implementation {
     const Implementation& of_;
   };
 
-  Scene scene;
+  Scene scene;  // as it is posed now
   TaskPool pool;
   InstructionSet set;
   double time;
+  ScenePose poses;
+  PosingStatistics posing;
   std::shared_ptr<frame::TextureLibrary> textures;
   frame::ClusteredMeshes meshes;
   frame::Frame frame;
@@ -510,13 +559,20 @@ Result<void> Renderer::set_transform(int node, const glm::dmat4& parent_from_nod
   const glm::dmat4 before = place;
   place = parent_from_node;
   std::vector<Diagnostic> faults = validate(self.scene);
-  if (faults.empty() && !self.carries_mesh(node)) {
-    self.frame.place_lights_and_cameras(self.scene);
-    return {};
+  if (faults.empty()) {
+    self.poses.set_node(node, parent_from_node);
+    self.poses.apply(self.scene, self.time);
+    if (!self.carries_mesh(node)) {
+      self.frame.place_lights_and_cameras(self.scene);
+      return {};
+    }
   }
   Result<void> built = faults.empty() ? guarded([&] { return self.rebuild(); })
                                       : tl::unexpected(Error(Failure::bad_input, std::move(faults)));
-  if (!built) place = before;
+  if (!built) {
+    place = before;
+    self.poses.set_node(node, before);
+  }
   return built;
 }
 
@@ -531,9 +587,14 @@ Result<void> Renderer::set_light(int light, Light value) {
     std::swap(place, value);
     return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
   }
+  self.poses.set_light(light, place);
+  self.poses.apply(self.scene, self.time);
   if (place.slide >= 0 && self.textures->find(place.slide, frame::slide_use(place)) == nullptr) {
     Result<void> loaded = guarded([&] { return self.load(); });
-    if (!loaded) std::swap(place, value);
+    if (!loaded) {
+      std::swap(place, value);
+      self.poses.set_light(light, place);
+    }
     return loaded;
   }
   self.frame.place_lights_and_cameras(self.scene);
@@ -561,13 +622,26 @@ Result<int> Renderer::set_time(double seconds) {
   return guarded([&]() -> Result<int> {
     Result<int> changed = self.textures->show(seconds);
     if (!changed) return changed;
+    const Result<PoseChanges> moved = self.pose(seconds);
+    if (!moved) {
+      static_cast<void>(self.textures->show(self.time));
+      return tl::unexpected(moved.error());
+    }
     self.time = seconds;
-    if (*changed > 0) self.frame.place_lights_and_cameras(self.scene);
+    if (*changed > 0 || moved->nodes || moved->cameras || moved->lights)
+      self.frame.place_lights_and_cameras(self.scene);
     return changed;
   });
 }
 
 double Renderer::time() const { return implementation_->time; }
+
+PosingStatistics Renderer::posing_statistics() const { return implementation_->posing; }
+
+Renderer::Box Renderer::bounds() const {
+  const frame::Bounds& bounds = implementation_->frame.bounds;
+  return {glm::dvec3(bounds.low), glm::dvec3(bounds.high)};
+}
 
 namespace {
 

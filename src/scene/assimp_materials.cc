@@ -15,8 +15,8 @@
 namespace laterna {
 namespace {
 
-// The files a skin may really be, in order of preference; PCX, which games used, is not decoded.
-constexpr std::array<std::string_view, 5> kPictureEndings = {".png", ".jpg", ".jpeg", ".tga", ".bmp"};
+// The files a skin may really be, in order of preference; games used PCX.
+constexpr std::array<std::string_view, 6> kPictureEndings = {".png", ".jpg", ".jpeg", ".tga", ".bmp", ".pcx"};
 
 bool is_file(const std::filesystem::path& path) {
   std::error_code ignored;

@@ -14,9 +14,11 @@
 #include <system_error>
 
 #include "base/elementary.h"
+#include "base/file_io.h"
 #include "scene/assimp_files.h"
 #include "scene/assimp_materials.h"
 #include "scene/fault_list.h"
+#include "scene/md2_frames.h"
 #include "scene/ply_header.h"
 #include "scene/spelling.h"
 #include "scene/surface_attributes.h"
@@ -245,9 +247,60 @@ std::string find_fault(const aiScene& source) {
   return {};
 }
 
+// The vertices of an MD2's frame, in the order of faces that all frames share. Empty where it cannot be read, which is told.
+VertexFrame read_vertex_frame(const std::filesystem::path& file, std::size_t frame, std::size_t vertices,
+                              FaultList& faults) {
+  Assimp::Importer importer;
+  MaterialLibraries libraries;
+  importer.SetIOHandler(new AssimpFiles(libraries));  // the importer owns it
+  importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD2_KEYFRAME, static_cast<int>(frame));
+  const aiScene* source = importer.ReadFile(file.string(), 0);
+  const std::string place = fmt::format("frame {}", frame + 1);
+  if (source == nullptr || source->mNumMeshes != 1 || source->mMeshes[0]->mNumVertices != vertices) {
+    faults.error(place, source == nullptr ? fmt::format("cannot be read: {}", importer.GetErrorString())
+                                          : std::string("has not the vertices of the first frame"));
+    return {};
+  }
+  const aiMesh& mesh = *source->mMeshes[0];
+  VertexFrame read;
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    const aiVector3D p = mesh.mVertices[i], n = mesh.HasNormals() ? mesh.mNormals[i] : aiVector3D(0, 0, 1);
+    read.positions.emplace_back(p.x, p.y, p.z);
+    read.normals.emplace_back(n.x, n.y, n.z);
+    if (!std::isfinite(p.x + p.y + p.z + n.x + n.y + n.z)) {
+      faults.error(place, fmt::format("vertex {} is not finite: ({}, {}, {})", i, p.x, p.y, p.z));
+      return {};
+    }
+  }
+  return read;
+}
+
+void add_md2_frames(Scene& scene, const std::filesystem::path& file, std::span<const std::string> names,
+                    FaultList& faults) {
+  if (names.size() < 2 || scene.meshes.size() != 1 || scene.meshes[0].primitives.size() != 1) return;
+  const std::size_t vertices = scene.meshes[0].primitives[0].positions.size();
+  if (names.size() > kMaxMorphTargets || names.size() * vertices > kMaxMorphedVertices) {
+    faults.error({}, fmt::format("{} frames of {} vertices are more than {} frames or {} vertices in all",
+                                 names.size(), vertices, kMaxMorphTargets, kMaxMorphedVertices));
+    return;
+  }
+  std::vector<VertexFrame> frames;
+  for (std::size_t i = 0; i < names.size() && !faults.has_errors(); ++i)
+    frames.push_back(read_vertex_frame(file, i, vertices, faults));
+  if (!faults.has_errors()) add_vertex_frames(scene, 0, frames, find_frame_runs(names));
+}
+
 Result<Scene> import(Assimp::Importer& importer, const std::filesystem::path& file,
                      const LoadOptions& options) {
   FaultList faults(file.string());
+  std::vector<std::string> frame_names;
+  if (lower_case_ending(file) == ".md2") {
+    const Result<std::vector<std::byte>> bytes = read_file(file);
+    if (!bytes) return tl::unexpected(bytes.error());
+    Result<std::vector<std::string>> names = read_md2_frame_names(*bytes, file.string());
+    if (!names) return tl::unexpected(std::move(names.error()));
+    frame_names = std::move(*names);
+  }
   MaterialLibraries libraries;
   importer.SetIOHandler(new AssimpFiles(libraries));  // the importer owns it
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_GLOBAL_KEYFRAME, 0);
@@ -276,6 +329,7 @@ Result<Scene> import(Assimp::Importer& importer, const std::filesystem::path& fi
   }
   SceneConverter converter(*source, file, !libraries.missing.empty() && !libraries.any_was_read, faults);
   Scene scene = converter.convert(scene_from_file(file, options));
+  if (!faults.has_errors()) add_md2_frames(scene, file, frame_names, faults);
   if (faults.has_errors()) return tl::unexpected(Error(Failure::bad_input, faults.errors()));
   scene.warnings = faults.warnings();
   return scene;

@@ -363,6 +363,16 @@ std::optional<std::vector<glm::vec4>> Accessors::read_colors(int index, const st
   return colors;
 }
 
+std::optional<std::vector<float>> Accessors::read_numbers(int index, int components,
+                                                          const std::string& place) {
+  const Accessor& accessor = at(index);
+  if (accessor.is_faulty || !has_components(index, components, place)) return std::nullopt;
+  if (accessor.view < 0 && !take_zero_elements(accessor)) return std::nullopt;
+  std::vector<float> values(accessor.count * static_cast<std::size_t>(components));
+  if (!read_floats(accessor, accessor.normalized, values)) return std::nullopt;
+  return values;
+}
+
 std::optional<std::vector<std::uint32_t>> Accessors::read_indices(int index, const std::string& place) {
   const Accessor& accessor = at(index);
   if (accessor.is_faulty || !has_components(index, 1, place)) return std::nullopt;

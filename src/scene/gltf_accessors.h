@@ -57,6 +57,10 @@ class Accessors {
   /// so.
   std::optional<std::vector<glm::vec4>> read_colors(int accessor, const std::string& place);
 
+  /// All components one after the other, of elements with `components` each (1 to 4, 16), read alike: normalised integers are
+  /// fractions. `place` is where another number of components is reported.
+  std::optional<std::vector<float>> read_numbers(int accessor, int components, const std::string& place);
+
   /// Unsigned integers. `place` is where a type that is no index type is reported.
   std::optional<std::vector<std::uint32_t>> read_indices(int accessor, const std::string& place);
 

@@ -13,10 +13,11 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 13> kRead = {
+constexpr std::array<std::string_view, 14> kRead = {
     "EXT_lights_ies",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
+    "KHR_animation_pointer",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",

@@ -22,6 +22,8 @@ class Materials {
   [[nodiscard]] const Material& operator[](int index) const {
     return materials_[static_cast<std::size_t>(index)];
   }
+  /// The scene's index of each material of the file, −1 where it is not used.
+  [[nodiscard]] const std::vector<int>& indices() const { return index_of_; }
   std::vector<Material> take() { return std::move(materials_); }
 
  private:

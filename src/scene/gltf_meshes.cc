@@ -12,6 +12,22 @@
 #include "scene/vertex_joining.h"
 
 namespace laterna::gltf {
+namespace {
+
+// Weights that add up to 1 but for rounding stay as they are; a vertex that nothing pulls goes with the first joint.
+void normalise_weights(Primitive& primitive) {
+  const auto per_vertex = static_cast<std::size_t>(primitive.influences);
+  for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+    float* weights = primitive.joint_weights.data() + v * per_vertex;
+    double sum = 0;
+    for (std::size_t k = 0; k < per_vertex; ++k) sum += weights[k];
+    if (std::abs(sum - 1) < 1e-6) continue;
+    if (!(sum > 0)) weights[0] = 1;
+    for (std::size_t k = 0; sum > 0 && k < per_vertex; ++k) weights[k] = static_cast<float>(weights[k] / sum);
+  }
+}
+
+}  // namespace
 
 struct Meshes::Source {
   const JsonValue* attributes = nullptr;
@@ -29,16 +45,18 @@ Meshes::Meshes(const JsonDocument& json, Buffers& buffers, Accessors& accessors,
   for (const JsonValue& value : list->children) values_.push_back(&value);
 }
 
-int Meshes::use(int mesh, const JsonValue* node_weights) {
+int Meshes::use(int mesh, const Use& how) {
   const JsonValue& value = *values_[static_cast<std::size_t>(mesh)];
-  const std::vector<double> weights = weights_of(value, node_weights);
-  const auto [entry, is_new] = index_of_.try_emplace({mesh, weights}, static_cast<int>(meshes_.size()));
-  if (is_new) meshes_.push_back(read_mesh(value, weights));
+  Reading reading{mesh, {}, how.morphs, how.has_skin};
+  if (!how.morphs) reading.weights = weights_of(mesh, how.node_weights);
+  const auto [entry, is_new] = index_of_.try_emplace(reading, static_cast<int>(meshes_.size()));
+  if (is_new) meshes_.push_back(read_mesh(value, reading));
   return entry->second;
 }
 
-std::vector<double> Meshes::weights_of(const JsonValue& mesh, const JsonValue* node_weights) {
-  const JsonValue* list = node_weights != nullptr ? node_weights : mesh.find("weights");
+std::vector<double> Meshes::weights_of(int mesh, const JsonValue* node_weights) {
+  const JsonValue* list =
+      node_weights != nullptr ? node_weights : values_[static_cast<std::size_t>(mesh)]->find("weights");
   std::vector<double> weights;
   if (list == nullptr) return weights;
   if (!list->is_array()) {
@@ -54,7 +72,7 @@ std::vector<double> Meshes::weights_of(const JsonValue& mesh, const JsonValue* n
   return weights;
 }
 
-Mesh Meshes::read_mesh(const JsonValue& value, const std::vector<double>& weights) {
+Mesh Meshes::read_mesh(const JsonValue& value, const Reading& reading) {
   JsonObject object(json_, value, faults_);
   Mesh mesh;
   mesh.name = object.string("name").value_or("");
@@ -63,7 +81,7 @@ Mesh Meshes::read_mesh(const JsonValue& value, const std::vector<double>& weight
   if (list == nullptr) return mesh;
   if (list->children.empty()) object.error("primitives", "expected at least one primitive");
   for (const JsonValue& primitive : list->children) {
-    if (std::optional<Primitive> read = read_primitive(primitive, weights))
+    if (std::optional<Primitive> read = read_primitive(primitive, reading))
       mesh.primitives.push_back(std::move(*read));
   }
   return mesh;
@@ -82,7 +100,7 @@ std::optional<Topology> Meshes::read_topology(JsonObject& object) {
   return std::nullopt;
 }
 
-std::optional<Primitive> Meshes::read_primitive(const JsonValue& value, const std::vector<double>& weights) {
+std::optional<Primitive> Meshes::read_primitive(const JsonValue& value, const Reading& reading) {
   JsonObject object(json_, value, faults_);
   const std::size_t errors_before = faults_.error_count();
   const std::optional<Topology> topology = read_topology(object);
@@ -97,12 +115,19 @@ std::optional<Primitive> Meshes::read_primitive(const JsonValue& value, const st
   Primitive primitive;
   if (!open_source(object, source) || !read_attributes(source, primitive)) return std::nullopt;
   primitive.material = materials_.use(object.index("material", materials_.count(), "materials"));
-  if (!read_triangles(object, source, *topology, primitive) || !apply_morph(object, weights, primitive))
+  if (!read_triangles(object, source, *topology, primitive) ||
+      !apply_morph(object, reading.weights, primitive))
     return std::nullopt;
+  if (reading.morphs && !read_targets(object, primitive)) return std::nullopt;
+  if (reading.has_skin && !read_influences(object, source, primitive)) return std::nullopt;
   drop_unused_vertices(primitive);
   if (!fits_limits(object, primitive) || faults_.error_count() != errors_before) return std::nullopt;
   const Material* material = primitive.material < 0 ? nullptr : &materials_[primitive.material];
-  complete_attributes(primitive, material, std::nullopt, json_.place(value), faults_);
+  if (primitive.normals.empty() && (reading.morphs || reading.has_skin)) {
+    complete_moving_attributes(primitive, material, json_.place(value), faults_);
+  } else {
+    complete_attributes(primitive, material, std::nullopt, json_.place(value), faults_);
+  }
   return primitive;
 }
 
@@ -275,6 +300,108 @@ bool Meshes::add_target(JsonObject& target, double weight, Primitive& primitive)
   };
   return add("POSITION", primitive.positions) && add("NORMAL", primitive.normals) &&
          add("TANGENT", primitive.tangents);
+}
+
+bool Meshes::read_targets(JsonObject& object, Primitive& primitive) {
+  const JsonValue* targets = object.array("targets");
+  if (targets == nullptr) return true;
+  if (targets->children.size() > kMaxMorphTargets) {
+    object.error("targets", fmt::format("{} are more than {}", targets->children.size(), kMaxMorphTargets));
+    return false;
+  }
+  bool is_sound = true;
+  for (const JsonValue& value : targets->children) {
+    JsonObject target(json_, value, faults_);
+    is_sound = is_sound && read_target(target, primitive, primitive.targets.emplace_back());
+  }
+  return is_sound;
+}
+
+bool Meshes::read_target(JsonObject& target, const Primitive& primitive, MorphTarget& read) {
+  const std::size_t vertices = primitive.positions.size();
+  bool is_sound = read_displacements(target, "POSITION", vertices, read.positions);
+  // What the mesh itself does not have cannot be displaced.
+  if (!primitive.normals.empty()) is_sound &= read_displacements(target, "NORMAL", vertices, read.normals);
+  if (!primitive.tangents.empty()) is_sound &= read_displacements(target, "TANGENT", vertices, read.tangents);
+  return is_sound;
+}
+
+bool Meshes::read_displacements(JsonObject& target, std::string_view name, std::size_t vertices,
+                                std::vector<glm::vec3>& values) {
+  const int accessor = target.index(name, accessors_.size(), "accessors");
+  if (accessor < 0) return !target.has(name);
+  morphed_total_ += vertices;
+  if (morphed_total_ > kMaxMorphedVertices) {
+    target.error(name,
+                 fmt::format("the file's morph targets displace more than {} vertices", kMaxMorphedVertices));
+    return false;
+  }
+  auto read = accessors_.read<glm::vec3>(accessor, json_.place(target.value(), name));
+  if (!read) return false;
+  if (read->size() < vertices) {
+    target.error(name, fmt::format("has {} elements, but the mesh has {} vertices", read->size(), vertices));
+    return false;
+  }
+  read->resize(vertices);
+  values = std::move(*read);
+  return true;
+}
+
+// JOINTS_0 and WEIGHTS_0, and as many further sets as there are.
+bool Meshes::read_influences(JsonObject& object, Source& source, Primitive& primitive) {
+  JsonObject attributes(json_, *source.attributes, faults_);
+  int sets = 0;
+  while (attributes.has(fmt::format("JOINTS_{}", sets)) || attributes.has(fmt::format("WEIGHTS_{}", sets)))
+    ++sets;
+  if (sets == 0) {
+    object.warning("attributes", "has no JOINTS_0, though its node has a skin: no joint pulls it");
+    return true;
+  }
+  influence_total_ += source.vertex_count * static_cast<std::uint64_t>(4 * sets);
+  if (influence_total_ > kMaxInfluences) {
+    attributes.error({},
+                     fmt::format("the file's vertices have more than {} joints and weights", kMaxInfluences));
+    return false;
+  }
+  primitive.influences = 4 * sets;
+  primitive.joints.assign(primitive.positions.size() * 4 * static_cast<std::size_t>(sets), 0);
+  primitive.joint_weights.assign(primitive.joints.size(), 0);
+  for (int set = 0; set < sets; ++set) {
+    if (!add_influences(source, set, primitive)) return false;
+  }
+  normalise_weights(primitive);
+  return true;
+}
+
+bool Meshes::add_influences(Source& source, int set, Primitive& primitive) {
+  JsonObject attributes(json_, *source.attributes, faults_);
+  const std::string joints_name = fmt::format("JOINTS_{}", set),
+                    weights_name = fmt::format("WEIGHTS_{}", set);
+  if (!attributes.require_all({joints_name, weights_name})) return false;
+  std::vector<glm::vec4> joints, weights;
+  if (!read_attribute(source, joints_name, joints) || !read_attribute(source, weights_name, weights))
+    return false;
+  for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+    for (int k = 0; k < 4; ++k) {
+      const float joint = joints[v][k], weight = weights[v][k];
+      if (!(joint >= 0 && joint <= 65535) || joint != std::floor(joint)) {
+        attributes.error(joints_name,
+                         fmt::format("vertex {}: expected the number of a joint, got {}", v, joint));
+        return false;
+      }
+      if (!(weight >= 0)) {
+        attributes.error(weights_name,
+                         fmt::format("vertex {}: expected a weight of at least 0, got {}", v, weight));
+        return false;
+      }
+      const std::size_t at =
+          v * static_cast<std::size_t>(primitive.influences) + static_cast<std::size_t>(4 * set + k);
+      // Exporters leave numbers of joints that pull by nothing at all.
+      primitive.joints[at] = weight > 0 ? static_cast<std::uint16_t>(joint) : std::uint16_t{0};
+      primitive.joint_weights[at] = weight;
+    }
+  }
+  return true;
 }
 
 bool Meshes::fits_limits(JsonObject& object, const Primitive& primitive) {

@@ -115,15 +115,6 @@ std::vector<int> scene_roots(const JsonDocument& json, const Hierarchy& tree, Fa
   return roots;
 }
 
-glm::dmat4 matrix_from(const glm::dvec3& translation, glm::dvec4 rotation, const glm::dvec3& scale) {
-  const double x = rotation.x, y = rotation.y, z = rotation.z, w = rotation.w;
-  const glm::dvec3 right(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w));
-  const glm::dvec3 up(2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w));
-  const glm::dvec3 backward(2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y));
-  return {glm::dvec4(right * scale.x, 0), glm::dvec4(up * scale.y, 0), glm::dvec4(backward * scale.z, 0),
-          glm::dvec4(translation, 1)};
-}
-
 // A unit quaternion, or nothing when there is no rotation in it.
 std::optional<glm::dvec4> normalized_rotation(glm::dvec4 rotation) {
   const double length = std::sqrt(glm::dot(rotation, rotation));
@@ -195,18 +186,19 @@ std::vector<PlacedNode> placed_nodes(const JsonDocument& json, FaultList& faults
   return placed;
 }
 
-glm::dmat4 node_matrix(const JsonDocument& json, const JsonValue& node, FaultList& faults) {
+NodePlace node_place(const JsonDocument& json, const JsonValue& node, FaultList& faults) {
   JsonObject object(json, node, faults);
-  if (object.has("matrix")) return explicit_matrix(object).value_or(glm::dmat4(1.0));
+  if (object.has("matrix")) return {explicit_matrix(object).value_or(glm::dmat4(1.0)), std::nullopt};
   const auto t = object.numbers<3>("translation").value_or(std::array<double, 3>{0, 0, 0});
   const auto r = object.numbers<4>("rotation").value_or(std::array<double, 4>{0, 0, 0, 1});
   const auto s = object.numbers<3>("scale").value_or(std::array<double, 3>{1, 1, 1});
   const std::optional<glm::dvec4> rotation = normalized_rotation(glm::dvec4(r[0], r[1], r[2], r[3]));
   if (!rotation) {
     object.error("rotation", "expected a unit quaternion, got one without length");
-    return glm::dmat4(1.0);
+    return {glm::dmat4(1.0), std::nullopt};
   }
-  return matrix_from(glm::dvec3(t[0], t[1], t[2]), *rotation, glm::dvec3(s[0], s[1], s[2]));
+  const Transform transform{glm::dvec3(t[0], t[1], t[2]), *rotation, glm::dvec3(s[0], s[1], s[2])};
+  return {to_matrix(transform), transform};
 }
 
 std::vector<glm::dmat4> node_instances(const JsonDocument& json, const JsonValue& node, Accessors& accessors,
@@ -240,8 +232,8 @@ std::vector<glm::dmat4> node_instances(const JsonDocument& json, const JsonValue
                        fmt::format("instance {}: expected a unit quaternion, got one without length", i));
       return {};
     }
-    instances[i] = matrix_from(translations.empty() ? glm::dvec3(0) : glm::dvec3(translations[i]), *rotation,
-                               scales.empty() ? glm::dvec3(1) : glm::dvec3(scales[i]));
+    instances[i] = to_matrix({translations.empty() ? glm::dvec3(0) : glm::dvec3(translations[i]), *rotation,
+                              scales.empty() ? glm::dvec3(1) : glm::dvec3(scales[i])});
   }
   return instances;
 }

@@ -23,8 +23,12 @@ struct PlacedNode {
 /// tree.
 std::vector<PlacedNode> placed_nodes(const JsonDocument& json, FaultList& faults);
 
-/// parent_from_node out of a matrix or translation, rotation and scale.
-glm::dmat4 node_matrix(const JsonDocument& json, const JsonValue& node, FaultList& faults);
+/// Where a node stands in its parent.
+struct NodePlace {
+  glm::dmat4 parent_from_node{1.0};
+  std::optional<Transform> transform;  ///< where it is given by translation, rotation and scale
+};
+NodePlace node_place(const JsonDocument& json, const JsonValue& node, FaultList& faults);
 
 /// Instances in one file: 2 GB of matrices.
 inline constexpr std::uint64_t kMaxInstances = std::uint64_t{1} << 24;

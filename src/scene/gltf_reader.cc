@@ -6,6 +6,7 @@
 
 #include "scene/fault_list.h"
 #include "scene/gltf_accessors.h"
+#include "scene/gltf_animations.h"
 #include "scene/gltf_buffers.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_extension.h"
@@ -14,6 +15,7 @@
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_skins.h"
 #include "scene/gltf_textures.h"
 #include "scene/json_document.h"
 #include "scene/json_object.h"
@@ -26,12 +28,28 @@ namespace {
 // Hangs what the nodes refer to into the scene.
 class SceneBuilder {
  public:
-  SceneBuilder(const JsonDocument& json, Meshes& meshes, Accessors& accessors, Lamps& lamps,
-               FaultList& faults)
-      : json_(json), meshes_(meshes), accessors_(accessors), lamps_(lamps), faults_(faults) {
+  struct Readers {
+    Meshes& meshes;
+    Accessors& accessors;
+    Lamps& lamps;
+    Skins& skins;
+    const Animations& animations;
+  };
+  SceneBuilder(const JsonDocument& json, const Readers& readers, FaultList& faults)
+      : json_(json),
+        meshes_(readers.meshes),
+        accessors_(readers.accessors),
+        lamps_(readers.lamps),
+        skins_(readers.skins),
+        animations_(readers.animations),
+        faults_(faults) {
     JsonObject root(json, json.root(), faults);
     cameras_ = root.array("cameras");
     lights_ = find_lights(json, faults);
+    const JsonValue* nodes = root.array("nodes");
+    indices_.nodes.assign(nodes == nullptr ? 0 : nodes->children.size(), -1);
+    indices_.cameras.resize(cameras_ == nullptr ? 0 : cameras_->children.size());
+    indices_.lights.resize(lights_ == nullptr ? 0 : lights_->children.size());
   }
 
   void add(const PlacedNode& placed) {
@@ -39,9 +57,12 @@ class SceneBuilder {
     Node node;
     node.name = object.string("name").value_or("");
     node.parent = placed.parent;
-    node.parent_from_node = node_matrix(json_, *placed.json, faults_);
+    const NodePlace place = node_place(json_, *placed.json, faults_);
+    node.parent_from_node = place.parent_from_node;
+    node.transform = place.transform;
+    indices_.nodes[placed.json->index] = static_cast<int>(scene_.nodes.size());
     if (const int mesh = object.index("mesh", meshes_.count(), "meshes"); mesh >= 0) {
-      node.mesh = meshes_.use(mesh, object.array("weights"));
+      wear_mesh(node, object, mesh, static_cast<int>(placed.json->index));
       node.node_from_instance =
           node_instances(json_, *placed.json, accessors_, kMaxInstances - instance_count_, faults_);
       instance_count_ += node.node_from_instance.size();
@@ -49,12 +70,14 @@ class SceneBuilder {
     const std::size_t camera_count = cameras_ == nullptr ? 0 : cameras_->children.size();
     if (const int camera = object.index("camera", camera_count, "cameras"); camera >= 0) {
       node.camera = add_camera(cameras_->children[static_cast<std::size_t>(camera)], node.name);
+      if (node.camera >= 0) indices_.cameras[static_cast<std::size_t>(camera)].push_back(node.camera);
     }
     if (const JsonValue* extension = find_extension(*placed.json, "KHR_lights_punctual")) {
       JsonObject reference(json_, *extension, faults_);
       const std::size_t light_count = lights_ == nullptr ? 0 : lights_->children.size();
       const int light = reference.index("light", light_count, "lights");
       if (light >= 0) node.light = add_light(lights_->children[static_cast<std::size_t>(light)], node.name);
+      if (node.light >= 0) indices_.lights[static_cast<std::size_t>(light)].push_back(node.light);
     }
     scene_.nodes.push_back(std::move(node));
     if (std::optional<Light> lamp = lamps_.read(*placed.json))
@@ -84,8 +107,23 @@ class SceneBuilder {
     }
     return std::move(scene_);
   }
+  [[nodiscard]] SceneIndices& indices() { return indices_; }
 
  private:
+  // A mesh that moves by itself keeps what it needs for that; any other is drawn toward its morph targets here and now.
+  void wear_mesh(Node& node, JsonObject& object, int mesh, int file_node) {
+    Meshes::Use use;
+    use.node_weights = object.array("weights");
+    use.morphs = animations_.move_weights(file_node, mesh);
+    const int skin = object.index("skin", skins_.count(), "skins");
+    use.has_skin = skin >= 0;
+    node.mesh = meshes_.use(mesh, use);
+    if (skin >= 0) node.skin = skins_.use(skin);
+    if (!use.morphs) return;
+    for (const double weight : meshes_.weights_of(mesh, use.node_weights))
+      node.weights.push_back(static_cast<float>(weight));
+  }
+
   // The thing's own name; where that is missing or belongs to another node already, the node's.
   static std::string name_for(const std::string& own, const std::string& node, const std::string& fallback,
                               UniqueNames& names) {
@@ -116,7 +154,10 @@ class SceneBuilder {
   Meshes& meshes_;
   Accessors& accessors_;
   Lamps& lamps_;
+  Skins& skins_;
+  const Animations& animations_;
   FaultList& faults_;
+  SceneIndices indices_;
   struct LampOfLitNode {
     int light, parent;
   };
@@ -143,11 +184,18 @@ Result<Scene> read_document(const JsonDocument& json, const Container& container
   Meshes meshes(json, buffers, accessors, materials, faults);
   const std::vector<PlacedNode> placed = placed_nodes(json, faults);
   Lamps lamps(json, buffers, folder, faults);
-  SceneBuilder builder(json, meshes, accessors, lamps, faults);
+  Skins skins(json, accessors, faults);
+  Animations animations(json, accessors, faults);
+  SceneBuilder builder(json, {meshes, accessors, lamps, skins, animations}, faults);
   for (const PlacedNode& node : placed) builder.add(node);
   if (faults.has_errors()) return failure(faults);
   Scene scene = builder.take();
   scene.meshes = meshes.take();
+  SceneIndices& indices = builder.indices();
+  indices.materials = materials.indices();
+  scene.skins = skins.read(indices.nodes);
+  scene.clips = animations.read(indices, scene);
+  if (faults.has_errors()) return failure(faults);
   scene.materials = materials.take();
   scene.pictures = textures.take_pictures();
   scene.warnings = faults.warnings();

@@ -29,6 +29,26 @@ void append(std::vector<T>& to, std::vector<T>& from) {
   }
 }
 
+// What skins and clips refer to, as it is numbered behind what `merged` holds already.
+void shift_animation(Scene& scene, const Scene& merged) {
+  for (Skin& skin : scene.skins) {
+    for (int& joint : skin.joints) shift(joint, merged.nodes.size());
+  }
+  for (Clip& clip : scene.clips) {
+    for (ClipChannel& channel : clip.channels) {
+      if (channel.property <= AnimatedProperty::look_at) {
+        shift(channel.target, merged.nodes.size());
+      } else if (channel.property <= AnimatedProperty::far && !channel.of_light) {
+        shift(channel.target, merged.cameras.size());
+      } else if (channel.property <= AnimatedProperty::outer_cone) {
+        shift(channel.target, merged.lights.size());
+      } else {
+        shift(channel.target, merged.materials.size());
+      }
+    }
+  }
+}
+
 std::vector<bool> nodes_called(const Scene& scene, const std::string& name) {
   std::vector<bool> is_called(scene.nodes.size(), false);
   bool any = false;
@@ -129,7 +149,9 @@ void SceneMerger::add(Scene scene, const std::string& file) {
     shift(node.mesh, merged_.meshes.size());
     shift(node.camera, merged_.cameras.size());
     shift(node.light, merged_.lights.size());
+    shift(node.skin, merged_.skins.size());
   }
+  shift_animation(scene, merged_);
   rename_taken(scene.cameras, camera_names_, "camera", file);
   rename_taken(scene.lights, light_names_, "light", file);
   append(merged_.materials, scene.materials);
@@ -137,6 +159,8 @@ void SceneMerger::add(Scene scene, const std::string& file) {
   append(merged_.cameras, scene.cameras);
   append(merged_.lights, scene.lights);
   append(merged_.nodes, scene.nodes);
+  append(merged_.skins, scene.skins);
+  append(merged_.clips, scene.clips);
   if (scene.ambient_is_set) {
     merged_.ambient = scene.ambient;
     merged_.ambient_is_set = true;

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <type_traits>
 #include <unordered_map>
 
 #include "base/elementary.h"
 #include "scene/triangle_geometry.h"
+#include "scene/vertex_lists.h"
 #include "scene/vertex_welding.h"
 
 namespace laterna {
@@ -25,21 +27,16 @@ glm::dvec3 area_vector(const Primitive& primitive, Corners t) {
   return glm::cross(b - a, c - a);
 }
 
-template <class T>
-void gather(std::vector<T>& values, const std::vector<std::uint32_t>& from) {
-  if (values.empty()) return;
-  std::vector<T> gathered(from.size());
-  for (std::size_t i = 0; i < from.size(); ++i) gathered[i] = values[from[i]];
-  values = std::move(gathered);
-}
-
 // Makes vertex i of the result a copy of vertex from[i].
 void gather_vertices(Primitive& primitive, const std::vector<std::uint32_t>& from) {
-  gather(primitive.positions, from);
-  gather(primitive.normals, from);
-  gather(primitive.tangents, from);
-  gather(primitive.colors, from);
-  for (auto& uv : primitive.uv) gather(uv, from);
+  for_each_vertex_list(primitive, [&](auto& values, std::size_t entries) {
+    if (values.empty()) return;
+    std::remove_reference_t<decltype(values)> gathered(from.size() * entries);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      for (std::size_t k = 0; k < entries; ++k) gathered[i * entries + k] = values[from[i] * entries + k];
+    }
+    values = std::move(gathered);
+  });
 }
 
 // One corner of one face: what it adds to the normal of its position.

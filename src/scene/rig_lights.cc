@@ -65,6 +65,7 @@ class LightReader {
     }
     // What a light can have depends on all of the above.
     read_rig_shadow(json_, object_, faults_, light_);
+    object_.any("path");  // read when the light has its node (rig_path.h)
     object_.report_unknown_members(fmt::format("a {}", name_of(*type)));
     if (faults_.error_count() != errors_before) return std::nullopt;
     return RigLight{std::move(light_), world_from_light_};

@@ -1,6 +1,5 @@
 #include "scene/rig_pose.h"
 
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -41,6 +40,28 @@ std::optional<glm::dmat4> read_pose(JsonObject& object) {
     return std::nullopt;
   }
   return pose->world_from_view();
+}
+
+std::optional<std::array<double, 9>> read_look_at(JsonObject& key, JsonObject& owner) {
+  const auto of = [&](std::string_view name) {
+    return key.has(name) ? key.numbers<3>(name, kCoordinate) : owner.numbers<3>(name, kCoordinate);
+  };
+  const auto position = of("position"), target = of("target"), up = of("up");
+  if (!position || !target || (key.has("up") && !up)) return std::nullopt;
+  const glm::dvec3 gaze = to_vec3(*target) - to_vec3(*position);
+  if (gaze == glm::dvec3(0)) {
+    key.error(key.has("target") ? "target" : "position",
+              "position and target are the same point: there is no direction to look in");
+    return std::nullopt;
+  }
+  const glm::dvec3 upward = up ? to_vec3(*up) : default_up(gaze);
+  const Result<Pose> pose = Pose::look_at(to_vec3(*position), to_vec3(*target), upward);
+  if (!pose) {
+    key.error(key.has("up") ? "up" : "target", to_string(pose.error()));
+    return std::nullopt;
+  }
+  return std::array<double, 9>{(*position)[0], (*position)[1], (*position)[2], (*target)[0], (*target)[1],
+                               (*target)[2],   upward.x,       upward.y,       upward.z};
 }
 
 }  // namespace laterna

@@ -7,6 +7,7 @@
 #include "scene/json_object.h"
 #include "scene/rig_frustum.h"
 #include "scene/rig_lights.h"
+#include "scene/rig_path.h"
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
 #include "scene/rig_terrain.h"
@@ -42,6 +43,7 @@ class RigReader {
     root.report_unknown_members("a rig");
     name_unnamed(rig_.scene.cameras, camera_names_, "camera");
     name_unnamed(rig_.scene.lights, light_names_, "light");
+    name_paths();
     rig_.scene.warnings = faults_.warnings();
     return std::move(rig_);
   }
@@ -80,6 +82,7 @@ class RigReader {
       camera.projection = frustum->projection;
       camera.aspect_from_picture = !frustum->aspect_is_given;
     }
+    object.any("path");  // read when the camera has its node
     object.report_unknown_members("a camera");
     claim_name(object, camera.name, camera_names_);
     if (!pose || faults_.error_count() != errors_before) return;
@@ -89,6 +92,7 @@ class RigReader {
     node.parent_from_node = *pose;
     rig_.scene.cameras.push_back(std::move(camera));
     rig_.scene.nodes.push_back(std::move(node));
+    read_path(value, {&rig_.scene.cameras.back(), nullptr});
   }
 
   void read_light(const JsonValue& value) {
@@ -100,8 +104,30 @@ class RigReader {
     node.name = read->light.name;
     node.light = static_cast<int>(rig_.scene.lights.size());
     node.parent_from_node = read->world_from_light;
+    // A point light moves without turning.
+    node.transform = Transform{glm::dvec3(node.parent_from_node[3]), {0, 0, 0, 1}, glm::dvec3(1)};
     rig_.scene.lights.push_back(std::move(read->light));
     rig_.scene.nodes.push_back(std::move(node));
+    read_path(value, {nullptr, &rig_.scene.lights.back()});
+  }
+
+  // Of the camera or light that was read last.
+  void read_path(const JsonValue& value, PathOwner owner) {
+    owner.index =
+        static_cast<int>(owner.camera != nullptr ? rig_.scene.cameras.size() : rig_.scene.lights.size()) - 1;
+    owner.node = static_cast<int>(rig_.scene.nodes.size()) - 1;
+    std::optional<Clip> path = read_rig_path(json_, value, owner, faults_);
+    if (!path) return;
+    path_nodes_.push_back(owner.node);
+    rig_.scene.clips.push_back(std::move(*path));
+  }
+
+  // Once cameras and lights without names have been given some.
+  void name_paths() {
+    for (std::size_t i = 0; i < path_nodes_.size(); ++i) {
+      const Node& node = rig_.scene.nodes[static_cast<std::size_t>(path_nodes_[i])];
+      rig_.scene.clips[i].name = fmt::format("path of {}", node.name);
+    }
   }
 
   void read_override(const JsonValue& value) {
@@ -144,6 +170,7 @@ class RigReader {
   const std::filesystem::path& folder_;
   FaultList& faults_;
   UniqueNames camera_names_, light_names_;
+  std::vector<int> path_nodes_;  // of each clip
   Rig rig_;
 };
 

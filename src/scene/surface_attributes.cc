@@ -43,6 +43,13 @@ std::array<const Texture*, 5> textures_of(const Material& material) {
           &material.occlusion_texture, &material.emissive_texture};
 }
 
+void complete_moving_attributes(Primitive& primitive, const Material* material, const std::string& place,
+                                FaultList& faults) {
+  if (material != nullptr && material->normal_texture.is_set())
+    return complete_attributes(primitive, material, std::nullopt, place, faults);
+  if (material != nullptr) complete_texture_coordinates(primitive, *material, place, faults);
+}
+
 void complete_attributes(Primitive& primitive, const Material* material, std::optional<Angle> crease,
                          const std::string& place, FaultList& faults) {
   if (primitive.normals.empty()) {

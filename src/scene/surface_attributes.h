@@ -15,6 +15,11 @@ namespace laterna {
 void complete_attributes(Primitive& primitive, const Material* material, std::optional<Angle> crease,
                          const std::string& place, FaultList& faults);
 
+/// The same of a primitive without normals whose vertices move: it stays without, so that its flat normals are those of its
+/// triangles as they then lie, unless a normal map needs some.
+void complete_moving_attributes(Primitive& primitive, const Material* material, const std::string& place,
+                                FaultList& faults);
+
 /// The textures of a material, in a fixed order.
 std::array<const Texture*, 5> textures_of(const Material& material);
 

@@ -6,6 +6,7 @@
 
 #include "scene/normals.h"
 #include "scene/triangle_geometry.h"
+#include "scene/vertex_lists.h"
 #include "scene/vertex_welding.h"
 
 namespace laterna {
@@ -75,12 +76,13 @@ TangentSums sum_tangents(const Primitive& primitive, const std::vector<glm::vec2
 }
 
 void append_copy(Primitive& primitive, std::size_t vertex) {
-  primitive.positions.push_back(primitive.positions[vertex]);
-  primitive.normals.push_back(primitive.normals[vertex]);
-  if (!primitive.colors.empty()) primitive.colors.push_back(primitive.colors[vertex]);
-  for (auto& uv : primitive.uv) {
-    if (!uv.empty()) uv.push_back(uv[vertex]);
-  }
+  for_each_vertex_list(primitive, [&](auto& values, std::size_t entries) {
+    if (values.empty()) return;
+    for (std::size_t k = 0; k < entries; ++k) {
+      const auto value = values[vertex * entries + k];
+      values.push_back(value);
+    }
+  });
 }
 
 // Gives each vertex one hand: the first that asks keeps it, corners of the other hand get a copy. Returns the

@@ -9,6 +9,7 @@
 
 #include "laterna/lamps.h"
 #include "laterna/scene.h"
+#include "scene/animation_check.h"
 #include "scene/fault_list.h"
 #include "scene/normals.h"
 #include "scene/number_scans.h"
@@ -44,6 +45,7 @@ class Validator {
     check_lights();
     check_photographs();
     check_whole_scene();
+    check_animation(scene_, faults_);
     check_nodes();
     return faults_.errors();
   }
@@ -656,6 +658,7 @@ void Validator::check_placed_meshes(const std::vector<glm::dmat4>& world_from_no
     const auto mesh = static_cast<std::size_t>(node.mesh);
     const std::size_t copies = std::max<std::size_t>(node.node_from_instance.size(), 1);
     placed += triangles[mesh] * copies;
+    if (node.skin >= 0) continue;  // placed by its joints: the frame sees where
     bool fits = node.node_from_instance.empty() ? is_within_reach(bounds[mesh], world_from_node[i]) : true;
     for (const glm::dmat4& node_from_instance : node.node_from_instance) {
       fits = fits && is_within_reach(bounds[mesh], world_from_node[i] * node_from_instance);

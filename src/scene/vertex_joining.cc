@@ -3,25 +3,21 @@
 #include <array>
 #include <cstdint>
 
+#include "scene/vertex_lists.h"
 #include "scene/vertex_welding.h"
 
 namespace laterna {
 namespace {
 
-template <class T>
-void keep(std::vector<T>& values, const std::vector<std::uint32_t>& kept) {
-  if (values.empty()) return;
-  for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];  // kept[i] ≥ i
-  values.resize(kept.size());
-  values.shrink_to_fit();
-}
-
 void keep_vertices(Primitive& primitive, const std::vector<std::uint32_t>& kept) {
-  keep(primitive.positions, kept);
-  keep(primitive.normals, kept);
-  keep(primitive.tangents, kept);
-  keep(primitive.colors, kept);
-  for (auto& uv : primitive.uv) keep(uv, kept);
+  for_each_vertex_list(primitive, [&](auto& values, std::size_t entries) {
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < kept.size(); ++i) {  // kept[i] ≥ i
+      for (std::size_t k = 0; k < entries; ++k) values[i * entries + k] = values[kept[i] * entries + k];
+    }
+    values.resize(kept.size() * entries);
+    values.shrink_to_fit();
+  });
 }
 
 template <class T>

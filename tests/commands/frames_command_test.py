@@ -69,6 +69,27 @@ class Frames(unittest.TestCase):
         self.assertEqual(json.loads(done.stdout)[0]["time_s"], 1001 * 1001 / 30000)
         self.assertEqual(self.names(".png"), ["x1001.png"])
 
+    def test_paths_clips_and_turntables(self):
+        """Cameras move along their paths; frames of either are the stills of their times."""
+        rig = json.loads(json.dumps(RIG))
+        rig["cameras"][0]["path"] = {"keys": [{"time": 0, "position": [-1.5, 1.6, 4.6]},
+                                              {"time": 0.2, "position": [1.5, 1.6, 4.6]}]}
+        (self.at / "rig.json").write_text(json.dumps(rig), encoding="utf-8")
+        done = self.render("--frames", "0:2", "--fps", "10", "-o", str(self.at / "p#.exr"), "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([p["maps_drawn"] for p in json.loads(done.stdout)], [1, 0, 0])
+        pictures = {(self.at / f"p{k}.exr").read_bytes() for k in range(3)}
+        self.assertEqual(len(pictures), 3)
+        self.assertEqual(self.render("--time", "0.1", "-o", str(self.at / "still.exr")).returncode, 0)
+        self.assertEqual((self.at / "still.exr").read_bytes(), (self.at / "p1.exr").read_bytes())
+        told = subprocess.run([LATERNA, "info", str(SCENES / "stage.glb"), "--rig", str(self.at / "rig.json"), "--json"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(json.loads(told.stdout)["clips"],
+                         [{"name": "path of main", "duration_s": 0.2, "channels": 1, "plays": True, "path": True}])
+        self.assertEqual(self.render("--frames", "0:1", "--fps", "0.001", "--turntable",
+                                     "-o", str(self.at / "t#.exr")).returncode, 0)
+        self.assertNotEqual((self.at / "t0.exr").read_bytes(), (self.at / "t1.exr").read_bytes())
+
     def test_what_makes_no_sense_is_refused(self):
         out = str(self.at / "out.##.png")
         for arguments, message in [
@@ -85,6 +106,8 @@ class Frames(unittest.TestCase):
             (["--frames", "0:3", "--time", "1", "-o", out], "excludes"),
             (["--fps", "25", "-o", out], "requires --frames"),
             (["--time", "2e6", "-o", out], "a time must be from -1000000 to 1000000 seconds"),
+            (["--turntable", "-o", out], "--turntable needs --frames"),
+            (["--clip", "run", "-o", out], "--clip: the scene has no clip \"run\": it has none"),
             (["--frames", "0:3", "--layer-pictures", str(self.at), "-o", out], "--layer-pictures"),
             (["-o", str(self.at / "out.gif")], "a film needs --frames"),
             (["--frames", "0:3", "--resume", "-o", str(self.at / "out.gif")], "--resume goes on with numbered pictures"),

@@ -80,9 +80,10 @@ TEST(InvalidFilm, Sequences) {
             "a.#.#.pgm: expected one place for a number, as in frame.####.png, got several");
   EXPECT_EQ(said("x.%03d.pgm"), "x.%03d.pgm: no file fits this pattern of numbers");
   EXPECT_EQ(said("nowhere/x.#.pgm"), "nowhere: cannot be read: No such file or directory");
-  EXPECT_EQ(said("c.#.pgm"),
-            "c.1.pgm: expected a PNG, JPEG, GIF, BMP, TGA, PNM, PFM, Radiance HDR or OpenEXR picture, found "
-            "none of these");
+  EXPECT_EQ(
+      said("c.#.pgm"),
+      "c.1.pgm: expected a PNG, JPEG, GIF, BMP, TGA, PCX, PNM, PFM, Radiance HDR or OpenEXR picture, found "
+      "none of these");
   EXPECT_EQ(said("missing.mp4"), "missing.mp4: cannot open: No such file or directory");
   const OpenedFilm film = open_film(folder / "b.#.pgm", 24);
   ASSERT_TRUE(film) << message(film);

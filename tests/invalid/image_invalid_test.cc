@@ -35,7 +35,7 @@ void expect_messages(const std::vector<Row>& rows) {
 
 TEST(InvalidPicture, NotAPicture) {
   const std::string expected =
-      ": expected a PNG, JPEG, GIF, BMP, TGA, PNM, PFM, Radiance HDR or OpenEXR picture, found ";
+      ": expected a PNG, JPEG, GIF, BMP, TGA, PCX, PNM, PFM, Radiance HDR or OpenEXR picture, found ";
   expect_messages({
       {{}, "empty.png", "empty.png: the file is empty"},
       {bytes("hello"), "a.png", "a.png" + expected + "none of these"},

@@ -275,7 +275,8 @@ const RigCase kRigCases[] = {
     {"SlideNotAPictureWhereItsShapeIsNeeded",
      "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"hfov_deg\": 30, "
      "\"slide\": \"slide.png\"}]}",
-     "r.json: line 1: lights[0].slide: slide.png: expected a PNG, JPEG, GIF, BMP, TGA, PNM, PFM, Radiance "
+     "r.json: line 1: lights[0].slide: slide.png: expected a PNG, JPEG, GIF, BMP, TGA, PCX, PNM, PFM, "
+     "Radiance "
      "HDR or "
      "OpenEXR picture, found none of these"},
     {"ProfileOfAMap",

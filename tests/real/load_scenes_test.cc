@@ -56,6 +56,8 @@ TEST_P(LoadScenes, WithTheirTriangles) {
   }
   for (const Mesh& mesh : scene->meshes) {
     for (const Primitive& primitive : mesh.primitives) {
+      // Flat ones of what moves are those of its triangles as they lie.
+      if (primitive.normals.empty() && primitive.influences > 0) continue;
       ASSERT_EQ(primitive.normals.size(), primitive.positions.size());
       for (const glm::vec3& normal : primitive.normals) ASSERT_NEAR(glm::length(normal), 1, 1e-5);
     }
