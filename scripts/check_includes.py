@@ -29,6 +29,7 @@ ROOMS = {
 # The room that implements each header of include/laterna: who may include the room may include the header.
 PUBLIC_HEADERS = {
     "accuracy.h": "measure",
+    "blend.h": "scene",
     "build_info.h": "measure",
     "false_color.h": "measure",
     "film.h": "image",

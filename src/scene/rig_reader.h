@@ -4,7 +4,8 @@
 //   { "ambient": [r, g, b], "background": [r, g, b], "shading": {"specular": 0.2, "shininess": 32},
 //     "cameras": [{"name", "position", "target", "up", a frustum}],
 //     "lights":  [{"name", "type", "position", "target", "up", "color", "enabled", "shadow", …}],
-//     "nodes":   [{"name", "casts_shadow", "receives_shadow", "visible"}] }
+//     "nodes":   [{"name", "casts_shadow", "receives_shadow", "visible"}],
+//     "surfaces": [{"material" or "node", "layers": [{"texture" or "slide", "blend", "color", "opacity", …}]}] }
 //
 // A frustum: one of "yfov_deg", "hfov_deg" (with "aspect"), "intrinsics": {"fx", "fy", "cx", "cy", "width",
 // "height"}, "orthographic": {"height"}; "aspect" (width / height), "near", "far". Lights by "type":
@@ -12,7 +13,7 @@
 //   point        "candela" or "lumens", "range", "attenuation"; "ies" with "scale" or "lumens", "target", "up"
 //   spot         the same; "inner_cone_deg", "outer_cone_deg" (half angles)
 //   projector    "candela" or "lumens", "slide" or "intensity_map", a frustum, "profile", "outside", "range",
-//                "attenuation", "black_level", "pixels"
+//                "attenuation", "black_level", "pixels", "blend"
 // All: "color" or "color_temperature", "filter", "gel".
 // "attenuation": none, linear, inverse_square, gltf_windowed; a "range" alone means gltf_windowed.
 // "shadow": true, false or {"technique", "resolution", "filter", "kernel", "constant_bias", "slope_bias",
@@ -33,6 +34,7 @@ namespace laterna {
 struct Rig {
   Scene scene;  ///< cameras, lights and their nodes
   std::vector<NodeOverride> overrides;
+  std::vector<SurfaceOverride> surfaces;  ///< their pictures and projectors are the scene's
 };
 
 /// `file` stands in messages; slides are looked for in `folder`.

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "laterna/scene.h"
 #include "scene/fault_list.h"
@@ -15,7 +16,7 @@ namespace laterna {
 void complete_attributes(Primitive& primitive, const Material* material, std::optional<Angle> crease,
                          const std::string& place, FaultList& faults);
 
-/// The textures of a material, in a fixed order.
-std::array<const Texture*, 5> textures_of(const Material& material);
+/// The textures of a material, in a fixed order: its own, then its layers'.
+std::vector<const Texture*> textures_of(const Material& material);
 
 }  // namespace laterna
