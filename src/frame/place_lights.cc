@@ -158,8 +158,8 @@ void place_decals(const Scene& scene, const std::vector<glm::dmat4>& world_from_
                                    [&](const Node& candidate) { return candidate.light == index; });
     const std::ptrdiff_t at = node - scene.nodes.begin();
     const Result<Pose> pose = Pose::from_matrix(world_from_node[static_cast<std::size_t>(at)]);
-    frame.decals.push_back(place(scene.lights[static_cast<std::size_t>(index)], static_cast<int>(at), *pose,
-                                 kLayerUse, frame));
+    frame.decals.push_back(
+        place(scene.lights[static_cast<std::size_t>(index)], static_cast<int>(at), *pose, kLayerUse, frame));
   }
 }
 

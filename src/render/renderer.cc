@@ -183,9 +183,9 @@ struct Renderer::Implementation {
                                                      render::ShadowCasting& casting) {
     std::vector<shade::ShaderDecal> decals;
     for (const light::PlannedLight& planned : plan) {
-      decals.push_back(
-          {shade::BoundLight(*planned.placed, ray, ShadingModel::papers, settings.anisotropy),
-           shade::LightReach(*planned.placed, ShadingModel::papers), casting.make(planned, planned.number)});
+      decals.push_back({shade::BoundLight(*planned.placed, ray, ShadingModel::papers, settings.anisotropy),
+                        shade::LightReach(*planned.placed, ShadingModel::papers),
+                        casting.make(planned, planned.number)});
     }
     return decals;
   }

@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::array<BlendModeDescription, 11> kModes = {{
     {BlendMode::over, "over", "t", "the layer covers what is below, as far as its alpha says", "GL_DECAL"},
-    {BlendMode::modulate, "modulate", "c t", "a filter: white changes nothing, black is black", "GL_MODULATE"},
+    {BlendMode::modulate, "modulate", "c t", "a filter: white changes nothing, black is black",
+     "GL_MODULATE"},
     {BlendMode::add, "add", "c + t", "one light and another", "GL_ADD"},
     {BlendMode::alpha_attenuate, "alpha_attenuate", "c a", "the layer's alpha alone darkens what is below",
      "glBlendFunc(GL_ZERO, GL_SRC_ALPHA)"},

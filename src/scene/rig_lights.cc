@@ -303,7 +303,8 @@ class LightReader {
     using NamedMode = std::pair<std::string_view, BlendMode>;
     std::vector<NamedMode> modes;
     for (const BlendModeDescription& known : list_blend_modes()) modes.emplace_back(known.name, known.mode);
-    light_.blend = object_.choice<BlendMode>("blend", std::span<const NamedMode>(modes)).value_or(light_.blend);
+    light_.blend =
+        object_.choice<BlendMode>("blend", std::span<const NamedMode>(modes)).value_or(light_.blend);
     if (const std::string_view message = find_light_fault(light_.blend); !message.empty())
       object_.error("blend", std::string(message));
   }

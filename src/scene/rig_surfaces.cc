@@ -15,6 +15,7 @@ class LayerReader {
       : json_(json), object_(json, value, faults), folder_(folder), pictures_(pictures) {}
 
   SurfaceOverride::Layer read() {
+    if (!object_.value().is_object()) return {};
     read_picture();
     read_texture();
     read_slide();
@@ -49,8 +50,7 @@ class LayerReader {
     const auto scale = object_.numbers<2>("scale", kCoordinate).value_or(std::array<double, 2>{1, 1});
     const double turn = Angle::degrees(object_.number("rotation_deg", kTurns).value_or(0)).in_radians();
     const double c = cosine(turn), s = sine(turn);
-    const double rows[6] = {c * scale[0],  s * scale[1], offset[0],
-                            -s * scale[0], c * scale[1], offset[1]};
+    const double rows[6] = {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
     for (std::size_t i = 0; i < 6; ++i) texture.uv_from_mesh_uv[i] = static_cast<float>(rows[i]);
     read_sampler(texture.sampler);
     if (object_.has("texture")) return;

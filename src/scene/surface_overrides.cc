@@ -77,9 +77,9 @@ class SurfaceLayering {
     }
     if (found.empty()) {
       const std::vector<std::string_view> names = names_of(scene_.materials);
-      fault(change_.place, fmt::format("the scene has no material named {}{}{}", in_quotes(name),
-                                       did_you_mean(name, names),
-                                       names.empty() ? "; its materials have no names: use \"node\"" : ""));
+      fault(change_.place,
+            fmt::format("the scene has no material named {}{}{}", in_quotes(name), did_you_mean(name, names),
+                        names.empty() ? "; its materials have no names: use \"node\"" : ""));
     }
     return found;
   }
@@ -151,7 +151,8 @@ class SurfaceLayering {
         int& material = primitive.material;
         if (of_others.contains(material)) {
           const auto [copy, is_new] = copies.try_emplace(material, 0);
-          if (is_new) copy->second = add_material(material < 0 ? Material() : Material(material_at(material)));
+          if (is_new)
+            copy->second = add_material(material < 0 ? Material() : Material(material_at(material)));
           material = copy->second;
         }
         taken.insert(material);

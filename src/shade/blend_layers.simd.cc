@@ -105,10 +105,9 @@ void find_texture_color(const PointSource& source, const frame::LayerBinding& la
 HWY_INLINE FloatMask Faces(const BoundLight& projector, const shadow::SurfaceSamples& samples,
                            std::size_t i) {
   const Vector3 normal = Load3(samples.normal_x_ws, samples.normal_y_ws, samples.normal_z_ws, i);
-  const Vector3 from_lens =
-      projector.is_orthographic
-          ? Splat3(projector.forward_ws)
-          : Load3(samples.x_ws, samples.y_ws, samples.z_ws, i) - Splat3(projector.position_ws);
+  const Vector3 from_lens = projector.is_orthographic ? Splat3(projector.forward_ws)
+                                                      : Load3(samples.x_ws, samples.y_ws, samples.z_ws, i) -
+                                                            Splat3(projector.position_ws);
   return Dot(normal, from_lens) < Splat(0.0F);
 }
 
@@ -201,8 +200,8 @@ void blend_light(BlendMode mode, std::size_t groups, const Radiance& open, const
                  Radiance& earlier, Radiance& change) {
   for (std::size_t i = 0; i < groups * kGroupSize; i += kLanes) {
     const Vector3 before = Load3(earlier.r, earlier.g, earlier.b, i);
-    const Vector3 after = CombineLights(mode, Load3(open.r, open.g, open.b, i),
-                                        Load3(own.r, own.g, own.b, i), before);
+    const Vector3 after =
+        CombineLights(mode, Load3(open.r, open.g, open.b, i), Load3(own.r, own.g, own.b, i), before);
     const Vector3 difference = after - before;
     Store3(difference, change.r, change.g, change.b, i);
     // What is added up elsewhere is the change: that sum is the one to go on from.

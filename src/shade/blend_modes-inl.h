@@ -49,8 +49,8 @@ HWY_INLINE Vector3 BlendColors(BlendMode mode, const Vector3& c, const Vector3& 
     case BlendMode::difference:
       return ByChannel(c, t, [](V x, V y) HWY_ATTR { return hn::Abs(x - y); });
     case BlendMode::screen:
-      return ByChannel(
-          c, t, [one](V x, V y) HWY_ATTR { return (x + y) - hn::Min(x, one) * hn::Min(y, one); });
+      return ByChannel(c, t,
+                       [one](V x, V y) HWY_ATTR { return (x + y) - hn::Min(x, one) * hn::Min(y, one); });
     case BlendMode::min:
       return ByChannel(c, t, [](V x, V y) HWY_ATTR { return hn::Min(x, y); });
     case BlendMode::max:

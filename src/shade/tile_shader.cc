@@ -174,8 +174,7 @@ class TileShader::Worker {
   };
 
   void shade_visible(std::span<const ColorTarget> targets, const Part& part) {
-    for_each_visible_batch(
-        [&](const frame::Surface& surface) { shade_batch(surface, targets, part, true); });
+    for_each_visible_batch([&](const frame::Surface& surface) { shade_batch(surface, targets, part, true); });
   }
 
   // Calls `use` with samples_ filled in, all of that surface.
@@ -537,8 +536,8 @@ class TileShader::Worker {
   std::unique_ptr<PhotographPainter> photographs_;  // null: there are none
   std::size_t most_layers_ = 0;                     // of any surface
   std::unique_ptr<LayerPainter> layer_painter_;     // null: no surface has layers
-  TileColor base_colors_;                           // of the tile's surfaces that have layers, with many passes
-  std::unique_ptr<LightBlender> light_blender_;     // null: all lights add
+  TileColor base_colors_;                        // of the tile's surfaces that have layers, with many passes
+  std::unique_ptr<LightBlender> light_blender_;  // null: all lights add
   TileResult result_;
   TileLayers layers_;
 

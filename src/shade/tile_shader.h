@@ -46,7 +46,7 @@ struct ShaderJob {
   std::span<const raster::Batch> batches;
   std::vector<ShaderLight> lights;
   PhotographJob photographs;
-  std::vector<ShaderDecal> decals;  // the frame's
+  std::vector<ShaderDecal> decals;          // the frame's
   std::vector<BoundLight> physical_lights;  // for lux where the model is not physical; otherwise empty
   ReflectionSettings reflection;
   Interpolation interpolation = Interpolation::perspective;

@@ -154,8 +154,7 @@ TEST(BlendLayers, LightIsCombinedInUnitsOfTheProjectorsWhite) {
       }
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_GE(sum[k], 0) << mode.name;
-        EXPECT_EQ(static_cast<float>(sum[k]),
-                  static_cast<float>(earlier[k]) + static_cast<float>(change[k]));
+        EXPECT_EQ(static_cast<float>(sum[k]), static_cast<float>(earlier[k]) + static_cast<float>(change[k]));
         if (!has_white) continue;
         const auto expected = reference::blend<double>(mode.mode, c, t, 1);
         EXPECT_NEAR(sum[k], white[k] * expected[k], 2e-5) << mode.name << ", sample " << i;

@@ -25,7 +25,8 @@ Scene bare_wall(const glm::vec3& color = glm::vec3(1)) {
   return scene;
 }
 
-LayeredImage picture_of(Scene scene, Passes passes = Passes::single, ShadingModel model = ShadingModel::papers,
+LayeredImage picture_of(Scene scene, Passes passes = Passes::single,
+                        ShadingModel model = ShadingModel::papers,
                         InstructionSet set = best_instruction_set()) {
   RenderSettings settings = papers_settings(kSide, kSide);
   settings.shading = model;
@@ -85,7 +86,8 @@ TEST(MitLecture20Blending, FourLayersInOnePassAreFourPassesBitForBit) {
   const LayeredImage many = picture_of(std::move(stacked), Passes::multi);
   for (std::size_t channel = 0; channel < 3; ++channel) {
     for (std::size_t i = 0; i < buffer.size(); ++i)
-      ASSERT_EQ(one_pass.channels[channel].values[i], buffer[i][channel]) << kChannels[channel] << " at " << i;
+      ASSERT_EQ(one_pass.channels[channel].values[i], buffer[i][channel])
+          << kChannels[channel] << " at " << i;
   }
   EXPECT_TRUE(same_bits(one_pass, many));
 }
@@ -127,7 +129,13 @@ Scene layered_room() {
   return scene;
 }
 
-// Row 68, and D5: beauty stays the sum of its layers, whatever the modes are. What is dark is never darker than black.
+int find_node(const Scene& scene, const std::string& name) {
+  const auto found =
+      std::find_if(scene.nodes.begin(), scene.nodes.end(), [&](const Node& n) { return n.name == name; });
+  return static_cast<int>(found - scene.nodes.begin());
+}
+
+// Row 68, and D5: beauty stays the sum of its layers, whatever the modes are.
 TEST(MitLecture20Blending, ManyPassesGiveOnePassesPictureBitForBit) {
   const View camera = torus_and_box(1).camera;
   for (const ShadingModel model : {ShadingModel::papers, ShadingModel::phong, ShadingModel::pbr}) {
@@ -140,9 +148,6 @@ TEST(MitLecture20Blending, ManyPassesGiveOnePassesPictureBitForBit) {
     RenderSettings multi = settings;
     multi.passes = Passes::multi;
     EXPECT_TRUE(same_bits(single, render(renderer, camera, multi)));
-    settings.layers.clear();
-    const LayeredImage alone = render(renderer, camera, settings);
-    EXPECT_EQ(alone.find("G")->values, single.find("G")->values) << "without layers of lights";
     bool some_take_light_away = false;
     for (const std::string& channel : kChannels) {
       std::vector<float> sum = single.find("ambient." + channel)->values;
@@ -155,12 +160,32 @@ TEST(MitLecture20Blending, ManyPassesGiveOnePassesPictureBitForBit) {
         }
       }
       EXPECT_EQ(sum, single.find(channel)->values);
-      EXPECT_GE(*std::min_element(sum.begin(), sum.end()), 0);
     }
     EXPECT_TRUE(some_take_light_away);
+    settings.layers.clear();
     for (const InstructionSet set : supported_instruction_sets()) {
       const Renderer other = make_renderer(layered_room(), 3, set);
-      EXPECT_EQ(render(other, camera, settings).find("R")->values, single.find("R")->values);
+      EXPECT_EQ(render(other, camera, settings).find("R")->values, single.find("R")->values)
+          << "without layers, on three threads";
+    }
+  }
+}
+
+// Light is taken away from what is there, and no more: of one sample of opaque surfaces to the last bit, where several are
+// averaged, or glass is laid over them, but for rounding.
+TEST(MitLecture20Blending, NothingIsDarkerThanBlack) {
+  const View camera = torus_and_box(1).camera;
+  for (const int samples : {1, 4}) {
+    Scene scene = layered_room();
+    if (samples == 1) scene.nodes[static_cast<std::size_t>(find_node(scene, "pane"))].visible = false;
+    scene.ambient = glm::vec3(1e-4F);
+    RenderSettings settings = papers_settings(48, 48);
+    settings.samples = samples;
+    settings.shading = ShadingModel::pbr;
+    const LayeredImage image = render(make_renderer(std::move(scene)), camera, settings);
+    for (const std::string& channel : kChannels) {
+      const std::vector<float>& values = image.find(channel)->values;
+      EXPECT_GE(*std::min_element(values.begin(), values.end()), samples == 1 ? 0 : -1e-6F);
     }
   }
 }
@@ -173,7 +198,8 @@ TEST(MitLecture20Blending, PassesOfEightBitsAreOffByHalfACodeEach) {
     scene.ambient_is_set = true;
     const std::vector<int> pictures = add_four_pictures(scene);
     for (int n = 0; n < lights; ++n) {
-      Light light = projector("light " + std::to_string(n), 0.2, 0.2, pictures[static_cast<std::size_t>(n % 4)]);
+      Light light =
+          projector("light " + std::to_string(n), 0.2, 0.2, pictures[static_cast<std::size_t>(n % 4)]);
       light.color = glm::vec3(0.95F / static_cast<float>(lights));
       light.outside = Outside::repeat;
       add_light(scene, light, {0.1 * n, 0, 4}, {0, 0, 0});
@@ -220,7 +246,8 @@ TEST(MitLecture20Blending, TruthTableOfLayers) {
   for (std::size_t m = 0; m < std::size(kTruths); ++m) {
     const Truth& truth = kTruths[m];
     ASSERT_EQ(list_blend_modes()[m].mode, truth.mode);
-    for (const auto& [opacity, expected] : {std::pair{1.0F, truth.at_full}, std::pair{0.75F, truth.at_three}}) {
+    for (const auto& [opacity, expected] :
+         {std::pair{1.0F, truth.at_full}, std::pair{0.75F, truth.at_three}}) {
       Scene scene = bare_wall({0.75F, 0.5F, 0.25F});
       SurfaceLayer layer = layer_of(truth.mode, -1, opacity);
       layer.color = {0.5F, 0.25F, 1};
@@ -237,7 +264,8 @@ TEST(MitLecture20Blending, TruthTableOfLayers) {
 // Row 70: directions kept as colours, 0.5 + 0.5 n: the same, 60° apart, opposite.
 TEST(MitLecture20Blending, Dot3IsTheCosineOfTwoDirections) {
   const auto kept = [](const glm::vec3& n) { return 0.5F + 0.5F * n; };
-  const glm::vec3 n(0.6F, 0, 0.8F), apart(0.5F * 0.6F - 0.8660254F * 0.8F, 0, 0.5F * 0.8F + 0.8660254F * 0.6F);
+  const glm::vec3 n(0.6F, 0, 0.8F),
+      apart(0.5F * 0.6F - 0.8660254F * 0.8F, 0, 0.5F * 0.8F + 0.8660254F * 0.6F);
   for (const auto& [other, cosine] : {std::pair{n, 1.0F}, std::pair{apart, 0.5F}, std::pair{-n, 0.0F}}) {
     Scene scene = bare_wall(kept(n));
     SurfaceLayer layer = layer_of(BlendMode::dot3, -1);
@@ -285,8 +313,7 @@ TEST(MitLecture20Blending, TruthTableOfTwoSlidesAtOnce) {
   const glm::vec3 wall_color(0.5F, 0.75F, 1);
   for (const Truth& truth : kTruths) {
     if (!find_light_fault(truth.mode).empty()) continue;
-    const LayeredImage image =
-        picture_of(two_slides({0.75F, 0.5F, 0.25F}, {0.5F, 0.25F, 1}, truth.mode, 1));
+    const LayeredImage image = picture_of(two_slides({0.75F, 0.5F, 0.25F}, {0.5F, 0.25F, 1}, truth.mode, 1));
     for (int k = 0; k < 3; ++k) {
       const auto i = static_cast<std::size_t>(k);
       EXPECT_NEAR(at(image, kChannels[i], 12, 12), wall_color[k] * truth.at_full[i], 1e-6)
@@ -360,7 +387,8 @@ TEST(MitLecture20Blending, SlidesArePaintOnWhatTheySee) {
     EXPECT_EQ(at(image, "R", 1, 1), 0.25F) << "beside the frame";
     EXPECT_EQ(at(image, "R", 6, 6), 1) << "left of the middle, in the frame to ±0.6";
     EXPECT_EQ(at(image, "B", 17, 6), 1);
-    EXPECT_EQ(at(image, "R", 10, 12), occluded ? 0.25F : 1) << "behind the card";
+    EXPECT_NEAR(at(image, "R", 10, 12) + at(image, "B", 10, 12), occluded ? 0.5F : 1, 1e-6)
+        << "behind the card";
   }
 }
 
@@ -381,9 +409,8 @@ TEST(MitLecture20Blending, PaintIsOnTheSideThatFacesTheProjector) {
 // A texture that is there once, small and turned.
 TEST(MitLecture20Blending, ATextureMayBeThereOnce) {
   Scene scene = bare_wall({0.25F, 0.25F, 0.25F});
-  SurfaceLayer layer = layer_of(BlendMode::over, add_linear_picture(scene, 1, 1, [](int, int) {
-                                  return glm::vec3(1);
-                                }));
+  SurfaceLayer layer =
+      layer_of(BlendMode::over, add_linear_picture(scene, 1, 1, [](int, int) { return glm::vec3(1); }));
   layer.texture.uv_from_mesh_uv = {4, 0, -2, 0, 4, -1};  // u from ½ to ¾, v from ¼ to ½
   layer.once = true;
   scene.materials[0].layers = {layer};

@@ -82,15 +82,16 @@ TEST(RigSurfaces, OfANodeItsOwnCopiesAlone) {
 }
 
 TEST(RigSurfaces, WithoutANameOfAllSurfacesAndOneOverTheOther) {
-  const Scene scene = load(R"({"layers": [{"color": [1, 0, 0]}]}, {"node": "far", "layers": [{"color": [0, 1, 0]}]})");
+  const Scene scene =
+      load(R"({"layers": [{"color": [1, 0, 0]}]}, {"node": "far", "layers": [{"color": [0, 1, 0]}]})");
   EXPECT_EQ(layers_of_node(scene, 0).size(), 1U);
   ASSERT_EQ(layers_of_node(scene, 2).size(), 2U);
   EXPECT_EQ(layers_of_node(scene, 2)[1].color, glm::vec3(0, 1, 0));
   // A surface without a material has glTF's, and layers like any other.
   const TemporaryFolder folder;
-  const Scene bare =
-      load_or_fail({folder.write("s.gltf", triangle_builder().text())},
-                   {.rigs = {folder.write("r.json", R"({"surfaces": [{"layers": [{"color": [0, 0, 0]}]}]})")}});
+  const Scene bare = load_or_fail(
+      {folder.write("s.gltf", triangle_builder().text())},
+      {.rigs = {folder.write("r.json", R"({"surfaces": [{"layers": [{"color": [0, 0, 0]}]}]})")}});
   EXPECT_EQ(layers_of_node(bare, 0).size(), 1U);
 }
 

@@ -53,6 +53,8 @@ Shot board(BlendMode mode) {
   add_object(scene, "board", primitive, material);
   Material& board = scene.materials.back();
   board.unlit = true;
+  Sampler& sampler = board.base_color_texture.sampler;
+  sampler.wrap_u = sampler.wrap_v = Wrap::clamp;
   SurfaceLayer layer;
   layer.texture.picture = add_picture(scene, "coat", paint_coat(256));
   layer.texture.uv_from_mesh_uv = {1 / 0.7F, 0, -0.15F / 0.7F, 0, 1 / 0.7F, -0.15F / 0.7F};
@@ -67,6 +69,9 @@ Shot board(BlendMode mode) {
 }
 
 void draw_blend_modes(Sitting& sitting) {
+  Shot bare = board(BlendMode::over);
+  bare.scene.materials.back().layers.clear();
+  sitting.picture("c: the lake by itself.", bare);
   for (const BlendModeDescription& mode : list_blend_modes()) {
     Shot shot = board(mode.mode);
     // The coat has no alpha of its own.
@@ -78,8 +83,7 @@ void draw_blend_modes(Sitting& sitting) {
       for (int y = 0, i = 0; y < coat->height(); ++y) {
         for (int x = 0; x < coat->width(); ++x, i += 4) {
           for (int c = 0; c < 3; ++c) values[static_cast<std::size_t>(i + c)] = 255;
-          values[static_cast<std::size_t>(i + 3)] =
-              static_cast<std::uint8_t>(255 * coat->value(x, y, 0));
+          values[static_cast<std::size_t>(i + 3)] = static_cast<std::uint8_t>(255 * coat->value(x, y, 0));
         }
       }
       material.layers.front().texture.picture = add_picture(shot.scene, "faded coat", std::move(faded));
@@ -97,9 +101,11 @@ constexpr Figure kFigures[] = {
     {"blend-modes", "Every way to lay one texture on another", "Slides 16 and 17: multipass and multitexture",
      "A lake, and over its middle a coat of many colours, by each of laterna render --list-blend-modes, in "
      "linear light.",
-     "Of alpha_attenuate the coat's red is taken as alpha, as it has none. dot3 takes colours for directions, "
+     "Of alpha_attenuate the coat's red is taken as alpha, as it has none. dot3 takes colours for "
+     "directions, "
      "which these are not.",
-     "\"surfaces\": [{\"material\": \"board\", \"layers\": [{\"texture\": \"coat.png\", \"blend\": \"screen\"}]}]",
+     "\"surfaces\": [{\"material\": \"board\", \"layers\": [{\"texture\": \"coat.png\", \"blend\": "
+     "\"screen\"}]}]",
      draw_blend_modes},
 };
 
