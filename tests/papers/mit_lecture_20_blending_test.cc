@@ -423,5 +423,50 @@ TEST(MitLecture20Blending, ATextureMayBeThereOnce) {
   }
 }
 
+Scene example(const char* rig) {
+  const std::filesystem::path folder = std::filesystem::path(LATERNA_SOURCE_DIR) / "examples/scenes";
+  Result<Scene> scene = load_scene({folder / "stage.glb"}, {.rigs = {folder / rig}});
+  EXPECT_TRUE(scene) << (scene ? "" : to_string(scene.error()));
+  return scene ? std::move(*scene) : Scene{};
+}
+
+LayeredImage example_picture(Scene scene) {
+  RenderSettings settings = papers_settings(96, 64);
+  settings.layers = {Layer::light, Layer::albedo};
+  const Renderer renderer = make_renderer(std::move(scene));
+  return render(renderer, renderer.camera_view("front", 96, 64).value(), settings);
+}
+
+// Row 59: two slides at once in the example set. Each layer is the picture of that light alone, and they overlap.
+TEST(MitLecture20Blending, TheExampleOfTwoSlides) {
+  const Scene scene = example("two_slides.json");
+  ASSERT_EQ(scene.lights.size(), 2U);
+  const LayeredImage both = example_picture(scene);
+  std::vector<float> parts[2];
+  for (const std::size_t i : {0U, 1U}) {
+    Scene alone = scene;
+    alone.lights[1 - i].enabled = false;
+    const std::string channel = "light." + scene.lights[i].name + ".R";
+    parts[i] = both.find(channel)->values;
+    EXPECT_EQ(parts[i], example_picture(std::move(alone)).find(channel)->values);
+  }
+  int lit_by_both = 0;
+  for (std::size_t i = 0; i < parts[0].size(); ++i) lit_by_both += parts[0][i] > 0 && parts[1][i] > 0 ? 1 : 0;
+  EXPECT_GT(lit_by_both, 300);
+}
+
+TEST(MitLecture20Blending, TheExampleOfLayers) {
+  Scene scene = example("layers.json");
+  const LayeredImage layered = example_picture(scene);
+  for (Material& material : scene.materials) material.layers.clear();
+  const LayeredImage bare = example_picture(std::move(scene));
+  const std::vector<float>& with = layered.find("albedo.G")->values;
+  const std::vector<float>& without = bare.find("albedo.G")->values;
+  int painted = 0;
+  for (std::size_t i = 0; i < with.size(); ++i) painted += with[i] != without[i] ? 1 : 0;
+  EXPECT_GT(painted, 500);
+  EXPECT_LT(painted, 2500);
+}
+
 }  // namespace
 }  // namespace laterna
