@@ -11,6 +11,7 @@ LayerPainter::LayerPainter(const PointSource& source, const std::vector<ShaderDe
       find_texture_color_(find_texture_color_for(set)),
       find_decal_color_(find_decal_color_for(set)),
       blend_layer_(blend_layer_for(set)),
+      find_bounds_(find_bounds_for(set)),
       color_(std::make_unique<LayerColor>()),
       arrival_(std::make_unique<shadow::Arrival>()) {}
 
@@ -30,7 +31,7 @@ double LayerPainter::paint(const frame::LayerBinding& layer, const shadow::Surfa
 double LayerPainter::find_decal(const frame::LayerBinding& layer, const shadow::SurfaceSamples& samples) {
   const ShaderDecal& decal = decals_[static_cast<std::size_t>(layer.decal)];
   color_->covered.fill(0);
-  if (!decal.reach.touches(bounds_of(samples))) return 0;
+  if (!decal.reach.touches(find_bounds_(samples))) return 0;
   find_decal_color_(decal.bound, samples, *color_);
   if (!layer.occluded || decal.visibility == nullptr) return 0;
   const std::span covered = std::span<const std::uint16_t>(color_->covered).first(samples.group_count);

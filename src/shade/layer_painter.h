@@ -35,6 +35,7 @@ class LayerPainter {
   FindTextureColor find_texture_color_;
   FindDecalColor find_decal_color_;
   BlendLayer blend_layer_;
+  FindBounds find_bounds_;
   std::unique_ptr<LayerColor> color_;
   std::unique_ptr<shadow::Arrival> arrival_;
 };
