@@ -61,8 +61,9 @@ struct Texture {
 /// Layers lie one over the other, in their order, over the base colour with all that multiplies it (and over what
 /// photographs show), before any light shines. A surface's alpha stays as it is. docs/blend.md
 struct SurfaceLayer {
-  Texture texture;    ///< sRGB; its alpha, linear, is the layer's; unset: white
-  bool once = false;  ///< the texture is there once, in (0, 0) to (1, 1), and beyond it the layer is not there
+  Texture texture;  ///< sRGB; its alpha, linear, is the layer's; unset: white
+  /// The texture is there once, from (0, 0) to (1, 1), and beyond it the layer is not there.
+  bool once = false;
   /// In place of `texture`: index into Scene::lights, of a projector whose slide is painted on what it faces. Whether its
   /// light is on, and all that is said of how bright it is, plays no part. −1: none.
   int projector = -1;
@@ -92,7 +93,7 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
   bool double_sided = false;
-  bool unlit = false;  ///< KHR_materials_unlit: base colour is what is seen
+  bool unlit = false;                ///< KHR_materials_unlit: base colour is what is seen
   std::vector<SurfaceLayer> layers;  ///< at most kMaxSurfaceLayers
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "scene/node_selection.h"
 #include "scene/spelling.h"
@@ -129,7 +130,10 @@ class SurfaceLayering {
       if (!is_chosen[i] || mesh < 0) continue;
       if (of_others.contains(mesh)) {
         const auto [copy, is_new] = copies.try_emplace(mesh, static_cast<int>(scene_.meshes.size()));
-        if (is_new) scene_.meshes.push_back(Mesh(scene_.meshes[static_cast<std::size_t>(mesh)]));
+        if (is_new) {
+          Mesh copied = scene_.meshes[static_cast<std::size_t>(mesh)];
+          scene_.meshes.push_back(std::move(copied));
+        }
         mesh = copy->second;
       }
       taken.insert(mesh);
