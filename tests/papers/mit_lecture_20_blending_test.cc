@@ -46,6 +46,7 @@ bool same_bits(const LayeredImage& a, const LayeredImage& b) {
 // Four pictures without a pattern in common.
 std::vector<int> add_four_pictures(Scene& scene) {
   std::vector<int> pictures;
+  pictures.reserve(4);
   for (int n = 0; n < 4; ++n) {
     pictures.push_back(add_linear_picture(scene, 8 + n, 8, [n](int x, int y) {
       return glm::vec3((x * 37 + y * 11 + n * 5) % 17, (x * 7 + y * 29 + n * 3) % 13, (x + y + n) % 5) /
