@@ -30,6 +30,7 @@ ROOMS = {
 PUBLIC_HEADERS = {
     "accuracy.h": "measure",
     "animation.h": "scene",
+    "blend.h": "scene",
     "build_info.h": "measure",
     "false_color.h": "measure",
     "film.h": "image",

@@ -18,6 +18,7 @@
 #include "film_options.h"
 #include "frame_range.h"
 #include "interruption.h"
+#include "laterna/blend.h"
 #include "laterna/light_color.h"
 #include "laterna/measure.h"
 #include "laterna/technique_choice.h"
@@ -76,6 +77,12 @@ void list_all_gels() {
     const glm::vec3 passed = transmission(gel);
     fmt::print("{:<12} {:.3f} {:.3f} {:.3f}   {}\n", gel.name, passed.x, passed.y, passed.z, gel.meaning);
   }
+}
+void list_all_blend_modes() {
+  fmt::print("{:<17} {:<27} {}\n", "", "c below, layer t, its alpha a", "");
+  for (const BlendModeDescription& m : list_blend_modes())
+    fmt::print("{:<17} {:<27} {} ({}){}\n", m.name, m.formula, m.meaning, m.known_as,
+               find_light_fault(m.mode).empty() ? "" : "; of surfaces only");
 }
 void list_all_layers() {
   for (const LayerDescription& l : list_layers())
@@ -664,6 +671,13 @@ void declare_render(CLI::App& app, Run& run) {
         throw CLI::Success();
       },
       "print layers and end");
+  command->add_flag_callback(
+      "--list-blend-modes",
+      [] {
+        list_all_blend_modes();
+        throw CLI::Success();
+      },
+      "print how layers of surfaces and projectors' light combine, and end");
   command->add_flag_callback(
       "--list-gels",
       [] {

@@ -214,6 +214,7 @@ int main(int argc, char** argv) {
   picture("beam.png", paint_beam(256, 128));
   picture("lake.png", paint_slide(768, 512));
   picture("star.png", paint_star(256));
+  picture("rose.png", paint_rose(512));
   is_good &= is_written(write_downlight(folder / "downlight.ies"), folder / "downlight.ies");
   is_good &= is_written(write_wall_washer(folder / "wall_washer.ies"), folder / "wall_washer.ies");
   return is_good ? 0 : 4;

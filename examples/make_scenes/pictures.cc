@@ -151,6 +151,41 @@ Image paint_slide(int width, int height) {
   });
 }
 
+namespace {
+
+/// The glass of a rose window at a place from −1 to 1.
+glm::vec3 rose_glass(glm::vec2 p) {
+  constexpr glm::vec3 kLead(0.03F, 0.03F, 0.04F);
+  constexpr glm::vec3 kGold(0.98F, 0.78F, 0.22F);
+  constexpr glm::vec3 kPetals[] = {{0.10F, 0.22F, 0.80F}, {0.85F, 0.10F, 0.14F}};
+  constexpr glm::vec3 kRim[] = {{0.12F, 0.55F, 0.30F}, {0.95F, 0.88F, 0.72F}, {0.45F, 0.14F, 0.60F}};
+  constexpr float kThick = 0.014F;  // half of the lead's width
+  const float radius = glm::length(p);
+  const float turn = std::atan2(p.x, -p.y) / (2 * kPi) * 12 + 24;
+  const auto petal = static_cast<int>(std::floor(turn + 0.5F));
+  const float from_seam = std::abs(std::abs(turn - std::floor(turn + 0.5F)) - 0.5F) * radius * 2 * kPi / 12;
+  for (const float ring : {0.2F, 0.66F, 0.94F}) {
+    if (std::abs(radius - ring) < kThick) return kLead;
+  }
+  if (radius < 0.2F) return kGold;
+  if (from_seam < kThick) return kLead;
+  // A roundel where a petal meets the rim.
+  const float angle = static_cast<float>(petal) * 2 * kPi / 12;
+  const float from_roundel = glm::distance(p, 0.8F * glm::vec2(std::sin(angle), -std::cos(angle)));
+  if (radius > 0.66F && std::abs(from_roundel - 0.1F) < kThick) return kLead;
+  if (from_roundel < 0.1F) return kGold;
+  return radius < 0.66F ? kPetals[petal % 2] : kRim[petal % 3];
+}
+
+}  // namespace
+
+Image paint_rose(int side) {
+  return paint(side, side, 4, [](glm::vec2 place) {
+    const glm::vec2 p = 2.0F * place - 1.0F;
+    return glm::length(p) < 0.954F ? glm::vec4(rose_glass(p), 1) : glm::vec4(0);
+  });
+}
+
 Image paint_star(int side) {
   Image image(side, side, 1, PixelType::u8, Transfer::linear);
   const std::span<std::uint8_t> values = image.values<std::uint8_t>();

@@ -14,6 +14,8 @@ Image paint_trellis(int side);
 /// A lake between mountains at sunset, with a red sail left of the middle: what is up, left and right shows
 /// at once.
 Image paint_slide(int width, int height);
+/// A rose window: twelve petals of coloured glass in lead, about a golden middle. Nothing around it (alpha).
+Image paint_rose(int side);
 /// A five-pointed star with soft edges, dimmer toward its points, point up. An intensity map: linear, one
 /// channel.
 Image paint_star(int side);

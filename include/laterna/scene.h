@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "laterna/animation.h"
+#include "laterna/blend.h"
 #include "laterna/film.h"
 #include "laterna/image.h"
 #include "laterna/lens.h"
@@ -57,6 +58,24 @@ struct Texture {
 
 // ---------------------------------------------------------------------------------------------- surfaces
 
+/// A picture on a surface's base colour, or the slide of a projector thrown on it as paint: reflectance, not light.
+/// Layers lie one over the other, in their order, over the base colour with all that multiplies it (and over what
+/// photographs show), before any light shines. A surface's alpha stays as it is. docs/blend.md
+struct SurfaceLayer {
+  Texture texture;  ///< sRGB; its alpha, linear, is the layer's; unset: white
+  /// The texture is there once, from (0, 0) to (1, 1), and beyond it the layer is not there.
+  bool once = false;
+  /// In place of `texture`: index into Scene::lights, of a projector whose slide is painted on what it faces. Whether its
+  /// light is on, and all that is said of how bright it is, plays no part. −1: none.
+  int projector = -1;
+  bool occluded = true;  ///< the projector's slide does not pass through what casts shadows
+  glm::vec3 color{1};    ///< linear, 0 … kMaxRadiance; multiplies the picture
+  float opacity = 1;     ///< 0 … 1; multiplies alpha
+  BlendMode blend = BlendMode::over;
+};
+/// On one surface.
+inline constexpr std::size_t kMaxSurfaceLayers = 64;
+
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 /// glTF 2.0 metallic-roughness. Factors are linear; textures multiply them.
@@ -75,7 +94,8 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
   bool double_sided = false;
-  bool unlit = false;  ///< KHR_materials_unlit: base colour is what is seen
+  bool unlit = false;                ///< KHR_materials_unlit: base colour is what is seen
+  std::vector<SurfaceLayer> layers;  ///< at most kMaxSurfaceLayers
 };
 
 /// Triangles of one material. Attributes are empty or as long as `positions`.
@@ -190,6 +210,9 @@ struct Light {
   /// frame as it would be thrown without.
   LensDistortion distortion;
   Aperture aperture;  ///< projector with perspective, in place of a `source` with a size
+  /// Projector: what becomes of the light of those before it in the scene where it shines too. Not `over` nor
+  /// `alpha_attenuate`. In every mode, its layer light.<name> is what it changes, which may be less than nothing.
+  BlendMode blend = BlendMode::add;
 
   /// Directional: the shadow map's frustum is fitted to the scene; otherwise `projection` (orthographic) holds it.
   bool fit = true;

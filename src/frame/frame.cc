@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <span>
 
 #include "base/elementary.h"
 #include "frame/flatten.h"
@@ -17,7 +18,22 @@ TextureBinding bind(const Texture& texture, image::MipUse use, const TextureLibr
   return {library.find(texture.picture, use), texture.sampler, texture.uv_set, texture.uv_from_mesh_uv};
 }
 
-Surface make_surface(const Material& m, const TextureLibrary& library) {
+// `decals`: the lights of Frame::decals.
+LayerBinding make_layer(const SurfaceLayer& l, const TextureLibrary& library, std::span<const int> decals) {
+  LayerBinding layer;
+  layer.texture = bind(l.texture, kLayerUse, library);
+  layer.once = l.once;
+  if (l.projector >= 0) {
+    layer.decal = static_cast<int>(std::find(decals.begin(), decals.end(), l.projector) - decals.begin());
+  }
+  layer.occluded = l.occluded;
+  for (int i = 0; i < 3; ++i) layer.color[static_cast<std::size_t>(i)] = l.color[i];
+  layer.opacity = l.opacity;
+  layer.blend = l.blend;
+  return layer;
+}
+
+Surface make_surface(const Material& m, const TextureLibrary& library, std::span<const int> decals) {
   Surface s;
   for (int i = 0; i < 4; ++i) s.base_color[static_cast<std::size_t>(i)] = m.base_color[i];
   for (int i = 0; i < 3; ++i) s.emissive[static_cast<std::size_t>(i)] = m.emissive[i];
@@ -34,6 +50,7 @@ Surface make_surface(const Material& m, const TextureLibrary& library) {
   s.normal_texture = bind(m.normal_texture, image::MipUse::data, library);
   s.occlusion_texture = bind(m.occlusion_texture, image::MipUse::data, library);
   s.emissive_texture = bind(m.emissive_texture, image::MipUse::colour, library);
+  for (const SurfaceLayer& layer : m.layers) s.layers.push_back(make_layer(layer, library, decals));
   return s;
 }
 
@@ -82,8 +99,10 @@ Result<Frame> Frame::build(const Scene& scene, std::shared_ptr<const TextureLibr
 
 void Frame::make_surfaces(const Scene& scene) {
   surfaces.clear();
-  for (const Material& material : scene.materials) surfaces.push_back(make_surface(material, *textures));
-  surfaces.push_back(make_surface(Material{}, *textures));
+  const std::vector<int> decal_lights_of_scene = decal_lights(scene);
+  for (const Material& material : scene.materials)
+    surfaces.push_back(make_surface(material, *textures, decal_lights_of_scene));
+  surfaces.push_back(make_surface(Material{}, *textures, {}));
   // Photographs hold the light that they were taken in.
   if (!scene.photographs.empty() && !scene.photograph_settings.are_lit) {
     for (Surface& surface : surfaces) surface.unlit = true;
@@ -102,7 +121,10 @@ Result<Reposed> Frame::repose(const Scene& scene, const TaskPool& pool) {
 void Frame::place_lights_and_cameras(const Scene& scene) {
   lights.clear();
   cameras.clear();
-  frame::place_lights_and_cameras(scene, world_from_nodes(scene), *this);
+  decals.clear();
+  const std::vector<glm::dmat4> world_from_node = world_from_nodes(scene);
+  frame::place_lights_and_cameras(scene, world_from_node, *this);
+  place_decals(scene, world_from_node, *this);
   // Tables of lamps that no light has any more.
   std::erase_if(lamps, [this](const auto& lamp) {
     return std::none_of(lights.begin(), lights.end(),

@@ -31,6 +31,17 @@ struct TextureBinding {
   std::array<float, 6> uv_from_mesh_uv = {1, 0, 0, 0, 1, 0};
 };
 
+/// A SurfaceLayer with its picture found.
+struct LayerBinding {
+  TextureBinding texture;
+  bool once = false;
+  int decal = -1;  ///< index into Frame::decals
+  bool occluded = true;
+  std::array<float, 3> color = {1, 1, 1};
+  float opacity = 1;
+  BlendMode blend = BlendMode::over;
+};
+
 /// A Material with its pictures found.
 struct Surface {
   std::array<float, 4> base_color = {1, 1, 1, 1};
@@ -40,6 +51,7 @@ struct Surface {
   bool double_sided = false, unlit = false;
   TextureBinding base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
       emissive_texture;
+  std::vector<LayerBinding> layers;
 };
 
 /// A light where it stands. Colour and intensity stay in the scene's Light.
@@ -142,6 +154,7 @@ class Frame {
   std::map<std::shared_ptr<const LightDistribution>, std::shared_ptr<const LampTable>> lamps;
   std::vector<PlacedCamera> cameras;
   std::vector<PlacedPhotograph> photographs;
+  std::vector<PlacedLight> decals;  // projectors whose slides layers show: slides with alpha
   Bounds bounds;
   std::vector<PlacedPart> moving_parts;  // of nodes that clips move; in the order of objects
   bool has_blending = false;

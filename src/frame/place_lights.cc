@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/elementary.h"
 #include "frame/lamp_table.h"
@@ -41,12 +42,12 @@ const LampTable* find_lamp(const Light& light, Frame& frame) {
   return table.get();
 }
 
-PlacedLight place(const Light& light, int node, const Pose& pose, Frame& frame) {
+PlacedLight place(const Light& light, int node, const Pose& pose, image::MipUse slide_use, Frame& frame) {
   PlacedLight placed;
   placed.light = &light;
   placed.node = node;
   placed.pose = pose;
-  placed.slide = frame.textures->find(light.slide, slide_use(light));
+  placed.slide = frame.textures->find(light.slide, slide_use);
   Projection projection = light.projection;
   if (light.type == LightType::projector && light.aspect_from_slide && placed.slide != nullptr) {
     const double aspect = static_cast<double>(placed.slide->width()) / placed.slide->height();
@@ -137,7 +138,28 @@ void place_lights_and_cameras(const Scene& scene, const std::vector<glm::dmat4>&
       frame.cameras.push_back({&scene.cameras[static_cast<std::size_t>(node.camera)], index, *pose});
     if (node.light < 0) continue;
     const Light& light = scene.lights[static_cast<std::size_t>(node.light)];
-    if (light.enabled) frame.lights.push_back(place(light, index, *pose, frame));
+    if (light.enabled) frame.lights.push_back(place(light, index, *pose, slide_use(light), frame));
+  }
+}
+
+std::vector<int> decal_lights(const Scene& scene) {
+  std::set<int> lights;
+  for (const Material& material : scene.materials) {
+    for (const SurfaceLayer& layer : material.layers) {
+      if (layer.projector >= 0) lights.insert(layer.projector);
+    }
+  }
+  return {lights.begin(), lights.end()};
+}
+
+void place_decals(const Scene& scene, const std::vector<glm::dmat4>& world_from_node, Frame& frame) {
+  for (const int index : decal_lights(scene)) {
+    const auto node = std::find_if(scene.nodes.begin(), scene.nodes.end(),
+                                   [&](const Node& candidate) { return candidate.light == index; });
+    const std::ptrdiff_t at = node - scene.nodes.begin();
+    const Result<Pose> pose = Pose::from_matrix(world_from_node[static_cast<std::size_t>(at)]);
+    frame.decals.push_back(
+        place(scene.lights[static_cast<std::size_t>(index)], static_cast<int>(at), *pose, kLayerUse, frame));
   }
 }
 

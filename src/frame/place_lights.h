@@ -9,6 +9,11 @@ namespace laterna::frame {
 void place_lights_and_cameras(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
                               Frame& frame);
 
+/// The projectors whose slides layers of surfaces show: indices into the scene's lights, each once, in order.
+std::vector<int> decal_lights(const Scene& scene);
+/// Fills Frame::decals with these, enabled or not.
+void place_decals(const Scene& scene, const std::vector<glm::dmat4>& world_from_node, Frame& frame);
+
 /// How a projector's intensity depends on the direction: an intensity map holds candela per direction by itself
 /// (row 16), whatever the profile says.
 BeamProfile beam_profile(const Light& light);

@@ -25,6 +25,12 @@ std::set<Request> requests(const Scene& scene) {
     want(m.normal_texture, image::MipUse::data);
     want(m.occlusion_texture, image::MipUse::data);
     want(m.emissive_texture, image::MipUse::colour);
+    for (const SurfaceLayer& layer : m.layers) {
+      want(layer.texture, kLayerUse);
+      if (layer.projector < 0) continue;
+      const int slide = scene.lights[static_cast<std::size_t>(layer.projector)].slide;
+      if (slide >= 0) all.insert({slide, kLayerUse});
+    }
   }
   for (const Light& light : scene.lights) {
     if (light.slide >= 0) all.insert({light.slide, slide_use(light)});

@@ -77,6 +77,8 @@ class TextureLoading {
 
 /// How a material's base colour is kept: with alpha only where alpha is looked at.
 image::MipUse base_color_use(const Material& material);
+/// Textures and slides that layers of surfaces show.
+inline constexpr image::MipUse kLayerUse = image::MipUse::colour_with_alpha;
 /// A slide is colour; an intensity map is numbers.
 image::MipUse slide_use(const Light& light);
 

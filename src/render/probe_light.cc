@@ -206,10 +206,12 @@ ProbeReport measure_probes(const ProbeContext& context, std::span<const Probe> p
   for (int i = 0; i < points && !context.progress.is_cancelled(); ++i)
     measure_once(context, probes, {i, points}, report.readings);
   for (ProbeReading& reading : report.readings) {
-    for (ProbeReading::FromLight& light : reading.lights) {
+    for (std::size_t i = 0; i < reading.lights.size(); ++i) {
+      ProbeReading::FromLight& light = reading.lights[i];
       light.lux /= points;
       light.visibility /= points;
-      reading.lux += light.lux;
+      // Others are no light in the world: what they would add by themselves is told, and not counted.
+      if (context.frame.lights[i].light->blend == BlendMode::add) reading.lux += light.lux;
     }
   }
   return report;

@@ -6,8 +6,10 @@
 #include "base/refuse.h"
 #include "base/stopwatch.h"
 #include "base/without_exceptions.h"
+#include "frame/place_lights.h"
 #include "frame/slide_points.h"
 #include "laterna/render.h"
+#include "light/decal_plan.h"
 #include "light/light_plan.h"
 #include "light/photograph_plan.h"
 #include "render/camera_views.h"
@@ -221,10 +223,32 @@ struct Renderer::Implementation {
     return job;
   }
 
+  // Projectors that paint, with what finds the surfaces that they see.
+  static std::vector<shade::ShaderDecal> make_decals(const raster::RasterView::Ray& ray,
+                                                     const RenderSettings& settings,
+                                                     std::span<const light::PlannedLight> plan,
+                                                     render::ShadowCasting& casting) {
+    std::vector<shade::ShaderDecal> decals;
+    for (const light::PlannedLight& planned : plan) {
+      decals.push_back({shade::BoundLight(*planned.placed, ray, ShadingModel::papers, settings.anisotropy),
+                        shade::LightReach(*planned.placed, ShadingModel::papers),
+                        casting.make(planned, planned.number)});
+    }
+    return decals;
+  }
+
+  // What a picture is planned to need of lights and what is used like them.
+  struct PicturePlan {
+    light::LightPlan lights;
+    light::PhotographPlan photographs;
+    std::vector<light::PlannedLight> decals;
+  };
+
   // Everything the tiles share, with every shadow technique ready to answer.
   shade::ShaderJob make_job(const raster::RasterView& view, const RenderSettings& settings,
-                            const light::LightPlan& plan, const light::PhotographPlan& photographs,
-                            RenderStatistics& statistics, ProgressReport& progress) const {
+                            const PicturePlan& planned_picture, RenderStatistics& statistics,
+                            ProgressReport& progress) const {
+    const light::LightPlan& plan = planned_picture.lights;
     shade::ShaderJob job;
     job.frame = &frame;
     job.view = &view;
@@ -243,13 +267,16 @@ struct Renderer::Implementation {
         {frame, pool, set, casters_revision, bins, maps, [this] { return ray_scene(); },
          [this](shadow::CasterTree::Casters which) { return caster_tree(which); },
          [this] { return triangle_neighbours(); }, view, settings, statistics, progress});
-    job.photographs = make_photograph_job(ray, settings, photographs, casting);
+    job.photographs = make_photograph_job(ray, settings, planned_picture.photographs, casting);
+    job.decals = make_decals(ray, settings, planned_picture.decals, casting);
     for (std::size_t i = 0; i < plan.lights.size(); ++i) {
       const light::PlannedLight& planned = plan.lights[i];
       shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
       if (progress.asks_to_stop()) break;
       job.lights.push_back({bound, shade::LightReach(*planned.placed, settings.shading),
                             casting.make(planned, i), shade::ShadowTone(planned.settings)});
+      if (planned.placed->light->blend != BlendMode::add)
+        job.lights.back().open = with_open_gate(bound, *planned.placed);
       if (job.wanted.lux && settings.shading == ShadingModel::papers) {
         job.physical_lights.emplace_back(*planned.placed, ray, ShadingModel::phong, settings.anisotropy);
       }
@@ -418,17 +445,17 @@ RenderStatistics Renderer::Implementation::draw_picture(const View& from, const 
   Stopwatch watch;
   watch.start();
   RenderStatistics statistics;
-  const light::LightPlan plan = light::make_light_plan(frame, {settings.shadows, sample, &from});
-  const light::PhotographPlan photographs =
-      light::make_photograph_plan(frame, scene.photograph_settings.visibility);
+  const PicturePlan plan = {light::make_light_plan(frame, {settings.shadows, sample, &from}),
+                            light::make_photograph_plan(frame, scene.photograph_settings.visibility),
+                            light::make_decal_plan(frame, settings.shadows)};
   statistics.plan_ms = watch.lap_ms();
   const raster::RasterView view(from, settings.width, settings.height);
-  shade::ShaderJob job = make_job(view, settings, plan, photographs, statistics, progress);
+  shade::ShaderJob job = make_job(view, settings, plan, statistics, progress);
   job.jitter = jitter_of(sample);
   statistics.shadow_ms = watch.lap_ms();
   if (!progress.is_cancelled()) draw_bands(view, settings, job, writer, statistics, progress);
   for (std::size_t i = 0; i < job.lights.size(); ++i)
-    render::report_drawn(plan.lights[i], job.lights[i].shadow.get(), statistics);
+    render::report_drawn(plan.lights.lights[i], job.lights[i].shadow.get(), statistics);
   statistics.total_ms = statistics.plan_ms + statistics.shadow_ms + watch.lap_ms();
   return statistics;
 }
@@ -589,7 +616,11 @@ Result<void> Renderer::set_light(int light, Light value) {
   }
   self.poses.set_light(light, place);
   self.poses.apply(self.scene, self.time);
-  if (place.slide >= 0 && self.textures->find(place.slide, frame::slide_use(place)) == nullptr) {
+  const std::vector<int> decals = frame::decal_lights(self.scene);
+  const bool is_decal = std::find(decals.begin(), decals.end(), light) != decals.end();
+  const auto is_missing = [&](image::MipUse use) { return self.textures->find(place.slide, use) == nullptr; };
+  if (place.slide >= 0 &&
+      (is_missing(frame::slide_use(place)) || (is_decal && is_missing(frame::kLayerUse)))) {
     Result<void> loaded = guarded([&] { return self.load(); });
     if (!loaded) {
       std::swap(place, value);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "frame/place_lights.h"
 #include "scene/surface_attributes.h"
 
 namespace laterna::render {
@@ -12,8 +13,12 @@ constexpr float kPi32 = 3.14159265F;
 }  // namespace
 
 void add_default_light(Scene& scene) {
-  const bool has_light =
-      std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.light >= 0; });
+  // A projector that is off and only paints is no light.
+  const std::vector<int> decals = frame::decal_lights(scene);
+  const bool has_light = std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& n) {
+    return n.light >= 0 && (scene.lights[static_cast<std::size_t>(n.light)].enabled ||
+                            std::find(decals.begin(), decals.end(), n.light) == decals.end());
+  });
   if (has_light || scene.ambient_is_set) return;
   if (!scene.photographs.empty() && !scene.photograph_settings.are_lit) return;  // they need no light
   Light sun;

@@ -42,6 +42,7 @@ class SceneLoader {
   // What rigs change is changed once every file is there, in whatever order they were named.
   Result<Scene> finish(const std::string& file) {
     if (faults_.empty()) merger_.apply(overrides_, faults_);
+    if (faults_.empty()) merger_.apply(surfaces_, faults_);
     if (!faults_.empty()) return tl::unexpected(Error(Failure::bad_input, std::move(faults_)));
     Scene scene = merger_.take();
     std::vector<Diagnostic> faults = validate(scene);
@@ -63,9 +64,20 @@ class SceneLoader {
     const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
     Result<Rig> rig = read_rig(text, file.string(), file.parent_path());
     if (!rig) return tl::unexpected(std::move(rig.error()));
-    merger_.add(std::move(rig->scene), file.string());
+    keep_surfaces(std::move(rig->surfaces), merger_.add(std::move(rig->scene), file.string()));
     overrides_.insert(overrides_.end(), rig->overrides.begin(), rig->overrides.end());
     return {};
+  }
+
+  void keep_surfaces(std::vector<SurfaceOverride> surfaces, const MergedIndices& merged) {
+    for (SurfaceOverride& surface : surfaces) {
+      for (auto& [layer, slide, slide_place, texture_place] : surface.layers) {
+        if (layer.texture.is_set())
+          layer.texture.picture = merged.pictures[static_cast<std::size_t>(layer.texture.picture)];
+        if (layer.projector >= 0) layer.projector += merged.first_light;
+      }
+      surfaces_.push_back(std::move(surface));
+    }
   }
 
   Result<void> try_scene(const std::filesystem::path& file) {
@@ -93,6 +105,7 @@ class SceneLoader {
   const LoadOptions& options_;
   SceneMerger merger_;
   std::vector<NodeOverride> overrides_;
+  std::vector<SurfaceOverride> surfaces_;
   std::vector<Diagnostic> faults_;
 };
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <string_view>
 #include <system_error>
 
+#include "scene/node_selection.h"
 #include "scene/spelling.h"
 
 namespace laterna {
@@ -47,45 +47,6 @@ void shift_animation(Scene& scene, const Scene& merged) {
       }
     }
   }
-}
-
-std::vector<bool> nodes_called(const Scene& scene, const std::string& name) {
-  std::vector<bool> is_called(scene.nodes.size(), false);
-  bool any = false;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) any |= is_called[i] = scene.nodes[i].name == name;
-  if (any) return is_called;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    const int mesh = scene.nodes[i].mesh;
-    is_called[i] = mesh >= 0 && scene.meshes[static_cast<std::size_t>(mesh)].name == name;
-  }
-  return is_called;
-}
-
-// Everything below a chosen node is chosen too. Each chain upward is walked once.
-void choose_descendants(const Scene& scene, std::vector<bool>& is_chosen) {
-  std::vector<bool> is_decided = is_chosen;
-  std::vector<std::size_t> path;
-  for (std::size_t start = 0; start < scene.nodes.size(); ++start) {
-    path.clear();
-    auto node = static_cast<int>(start);
-    while (node >= 0 && !is_decided[static_cast<std::size_t>(node)]) {
-      path.push_back(static_cast<std::size_t>(node));
-      node = scene.nodes[static_cast<std::size_t>(node)].parent;
-    }
-    const bool chosen = node >= 0 && is_chosen[static_cast<std::size_t>(node)];
-    for (const std::size_t at : path) {
-      is_chosen[at] = chosen;
-      is_decided[at] = true;
-    }
-  }
-}
-
-std::string no_such_node(const Scene& scene, const std::string& name) {
-  std::vector<std::string_view> names;
-  names.reserve(scene.nodes.size() + scene.meshes.size());
-  for (const Node& node : scene.nodes) names.push_back(node.name);
-  for (const Mesh& mesh : scene.meshes) names.push_back(mesh.name);
-  return fmt::format("the scene has no node named {}{}", in_quotes(name), did_you_mean(name, names));
 }
 
 }  // namespace
@@ -130,7 +91,8 @@ void SceneMerger::rename_taken(std::vector<Named>& things, UniqueNames& names, c
   }
 }
 
-void SceneMerger::add(Scene scene, const std::string& file) {
+MergedIndices SceneMerger::add(Scene scene, const std::string& file) {
+  const auto first_light = static_cast<int>(merged_.lights.size());
   append(merged_.warnings, scene.warnings);
   const std::vector<int> picture = add_pictures(scene.pictures);
   for (Material& material : scene.materials) {
@@ -138,6 +100,10 @@ void SceneMerger::add(Scene scene, const std::string& file) {
          {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
           &material.occlusion_texture, &material.emissive_texture}) {
       remap_picture(texture->picture, picture);
+    }
+    for (SurfaceLayer& layer : material.layers) {
+      remap_picture(layer.texture.picture, picture);
+      shift(layer.projector, merged_.lights.size());
     }
   }
   for (Light& light : scene.lights) remap_picture(light.slide, picture);
@@ -167,16 +133,16 @@ void SceneMerger::add(Scene scene, const std::string& file) {
   }
   if (scene.background) merged_.background = scene.background;
   if (scene.phong) merged_.phong = scene.phong;
+  return {picture, first_light};
 }
 
 void SceneMerger::apply(const std::vector<NodeOverride>& overrides, std::vector<Diagnostic>& faults) {
   for (const NodeOverride& change : overrides) {
-    std::vector<bool> is_chosen = nodes_called(merged_, change.name);
+    const std::vector<bool> is_chosen = select_nodes(merged_, change.name);
     if (std::find(is_chosen.begin(), is_chosen.end(), true) == is_chosen.end()) {
       faults.push_back({change.file, change.place, no_such_node(merged_, change.name)});
       continue;
     }
-    choose_descendants(merged_, is_chosen);
     for (std::size_t i = 0; i < merged_.nodes.size(); ++i) {
       if (!is_chosen[i]) continue;
       Node& node = merged_.nodes[i];
@@ -185,6 +151,10 @@ void SceneMerger::apply(const std::vector<NodeOverride>& overrides, std::vector<
       node.visible = change.visible.value_or(node.visible);
     }
   }
+}
+
+void SceneMerger::apply(const std::vector<SurfaceOverride>& overrides, std::vector<Diagnostic>& faults) {
+  for (const SurfaceOverride& change : overrides) laterna::apply(change, merged_, faults);
 }
 
 }  // namespace laterna

@@ -9,6 +9,7 @@
 
 #include "laterna/scene.h"
 #include "scene/fault_list.h"
+#include "scene/surface_overrides.h"
 #include "scene/unique_names.h"
 
 namespace laterna {
@@ -20,16 +21,24 @@ struct NodeOverride {
   std::string file, place;  ///< where it is written
 };
 
+/// Where what a scene holds has gone.
+struct MergedIndices {
+  std::vector<int> pictures;  ///< new indices, by the old ones
+  int first_light = 0;
+};
+
 class SceneMerger {
  public:
   /// Appends a scene. Pictures from the same file become one; cameras and lights whose name is taken are
-  /// renamed
-  /// ("sun.2") with a warning; ambient, background and highlight of a later scene win where it has them.
-  void add(Scene scene, const std::string& file);
+  /// renamed ("sun.2") with a warning; ambient, background and highlight of a later scene win where it has them.
+  MergedIndices add(Scene scene, const std::string& file);
 
   /// Changes nodes of all scenes added so far; nodes without that name are also found by their mesh's name.
   /// Later overrides win. Faults: no such node.
   void apply(const std::vector<NodeOverride>& overrides, std::vector<Diagnostic>& faults);
+
+  /// Lays further layers on surfaces, in their order.
+  void apply(const std::vector<SurfaceOverride>& overrides, std::vector<Diagnostic>& faults);
 
   Scene take() { return std::move(merged_); }
 

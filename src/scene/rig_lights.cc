@@ -4,6 +4,7 @@
 
 #include "base/elementary.h"
 #include "image/numbered_files.h"
+#include "laterna/blend.h"
 #include "laterna/film.h"
 #include "laterna/image.h"
 #include "laterna/lamps.h"
@@ -13,6 +14,7 @@
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
 #include "scene/rig_shadows.h"
+#include "scene/rig_surfaces.h"
 #include "scene/spelling.h"
 #include "scene/uri.h"
 
@@ -274,6 +276,7 @@ class LightReader {
                                                       {"mirror", Outside::mirror}})
                          .value_or(light_.outside);
     read_panel();
+    read_blend();
     read_aperture();
     object_.any("distortion");
     const std::optional<double> slide_aspect = aspect_for_lens();
@@ -297,6 +300,16 @@ class LightReader {
     }
   }
 
+  void read_blend() {
+    using NamedMode = std::pair<std::string_view, BlendMode>;
+    std::vector<NamedMode> modes;
+    for (const BlendModeDescription& known : list_blend_modes()) modes.emplace_back(known.name, known.mode);
+    light_.blend =
+        object_.choice<BlendMode>("blend", std::span<const NamedMode>(modes)).value_or(light_.blend);
+    if (const std::string_view message = find_light_fault(light_.blend); !message.empty())
+      object_.error("blend", std::string(message));
+  }
+
   void read_aperture() {
     Aperture& aperture = light_.aperture;
     aperture.radius = object_.number("aperture_radius", kLength).value_or(0);
@@ -316,18 +329,7 @@ class LightReader {
   int read_slide(std::string_view key) {
     object_.any("slide");
     object_.any("intensity_map");
-    const std::optional<std::string> name = object_.string(key);
-    if (!name) return -1;
-    auto path = resolve_typed_file(folder_, *name);
-    if (!path) {
-      object_.error(key, path.error());
-      return -1;
-    }
-    Picture picture;
-    picture.file = std::move(*path);
-    picture.name = picture.file.string();
-    pictures_.push_back(std::move(picture));
-    return static_cast<int>(pictures_.size()) - 1;
+    return add_rig_picture(object_, key, folder_, pictures_);
   }
 
   int read_film() {

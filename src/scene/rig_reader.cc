@@ -10,6 +10,7 @@
 #include "scene/rig_path.h"
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
+#include "scene/rig_surfaces.h"
 #include "scene/rig_terrain.h"
 #include "scene/spelling.h"
 #include "scene/unique_names.h"
@@ -40,10 +41,14 @@ class RigReader {
         read_rig_terrain(json_, value, folder_, name, rig_.scene, faults_);
       }
     }
+    if (const JsonValue* surfaces = root.array("surfaces")) {
+      for (const JsonValue& value : surfaces->children) read_surface(value);
+    }
     root.report_unknown_members("a rig");
     name_unnamed(rig_.scene.cameras, camera_names_, "camera");
     name_unnamed(rig_.scene.lights, light_names_, "light");
     name_paths();
+    find_own_projectors();
     rig_.scene.warnings = faults_.warnings();
     return std::move(rig_);
   }
@@ -143,6 +148,23 @@ class RigReader {
     change.file = faults_.file();
     change.place = json_.place(value, "name");
     rig_.overrides.push_back(std::move(change));
+  }
+
+  void read_surface(const JsonValue& value) {
+    auto surface = read_rig_surface(json_, value, folder_, rig_.scene.pictures, faults_);
+    if (surface) rig_.surfaces.push_back(std::move(*surface));
+  }
+
+  // A rig's own light is meant before one of the same name elsewhere.
+  void find_own_projectors() {
+    for (SurfaceOverride& surface : rig_.surfaces) {
+      for (SurfaceOverride::Layer& layer : surface.layers) {
+        const std::vector<Light>& lights = rig_.scene.lights;
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+          if (layer.slide && lights[i].name == *layer.slide) layer.layer.projector = static_cast<int>(i);
+        }
+      }
+    }
   }
 
   static void claim_name(JsonObject& object, const std::string& name, UniqueNames& names) {

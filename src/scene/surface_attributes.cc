@@ -38,9 +38,12 @@ void repair_tangents(Primitive& primitive) {
 
 }  // namespace
 
-std::array<const Texture*, 5> textures_of(const Material& material) {
-  return {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-          &material.occlusion_texture, &material.emissive_texture};
+std::vector<const Texture*> textures_of(const Material& material) {
+  std::vector<const Texture*> textures = {&material.base_color_texture, &material.metallic_roughness_texture,
+                                          &material.normal_texture, &material.occlusion_texture,
+                                          &material.emissive_texture};
+  for (const SurfaceLayer& layer : material.layers) textures.push_back(&layer.texture);
+  return textures;
 }
 
 void complete_moving_attributes(Primitive& primitive, const Material* material, const std::string& place,

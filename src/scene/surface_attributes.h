@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "laterna/scene.h"
 #include "scene/fault_list.h"
@@ -20,7 +21,7 @@ void complete_attributes(Primitive& primitive, const Material* material, std::op
 void complete_moving_attributes(Primitive& primitive, const Material* material, const std::string& place,
                                 FaultList& faults);
 
-/// The textures of a material, in a fixed order.
-std::array<const Texture*, 5> textures_of(const Material& material);
+/// The textures of a material, in a fixed order: its own, then its layers'.
+std::vector<const Texture*> textures_of(const Material& material);
 
 }  // namespace laterna

@@ -89,6 +89,8 @@ class Validator {
   void check_film(const Picture& picture, const std::string& place);
   void check_texture(const Texture& texture, const std::string& place);
   void check_material(const Material& material, const std::string& place);
+  void check_layers(const Material& material, const std::string& place);
+  void check_layer_projector(const SurfaceLayer& layer, const std::string& place);
   void check_meshes();
   void check_primitive(const Primitive& primitive, const std::string& place);
   template <class Vector>
@@ -187,6 +189,35 @@ void Validator::check_material(const Material& material, const std::string& plac
   check_texture(material.normal_texture, place + ".normal_texture");
   check_texture(material.occlusion_texture, place + ".occlusion_texture");
   check_texture(material.emissive_texture, place + ".emissive_texture");
+  check_layers(material, place + ".layers");
+}
+
+void Validator::check_layers(const Material& material, const std::string& place) {
+  if (material.layers.size() > kMaxSurfaceLayers)
+    fault(place, fmt::format("{} layers are more than {}", material.layers.size(), kMaxSurfaceLayers));
+  for (std::size_t i = 0; i < material.layers.size(); ++i) {
+    const SurfaceLayer& layer = material.layers[i];
+    const std::string at = item(place, i);
+    check_texture(layer.texture, at + ".texture");
+    check_layer_projector(layer, at + ".projector");
+    check_color(at + ".color", layer.color, kMaxRadiance);
+    check_number(at + ".opacity", layer.opacity, 0, 1);
+    check_enumerator(at + ".blend", layer.blend, BlendMode::dot3);
+  }
+}
+
+void Validator::check_layer_projector(const SurfaceLayer& layer, const std::string& place) {
+  check_reference(place, layer.projector, scene_.lights.size(), "lights");
+  if (layer.projector < 0 || static_cast<std::size_t>(layer.projector) >= scene_.lights.size()) return;
+  const Light& light = scene_.lights[static_cast<std::size_t>(layer.projector)];
+  if (layer.texture.is_set()) fault(place, "is set beside a texture: a layer shows one or the other");
+  if (light.type != LightType::projector)
+    fault(place, fmt::format("light {} is no projector", in_quotes(light.name)));
+  if (light.slide_is_intensity)
+    fault(place, fmt::format("light {} throws an intensity map, which is no colour", in_quotes(light.name)));
+  if (std::none_of(scene_.nodes.begin(), scene_.nodes.end(),
+                   [&](const Node& node) { return node.light == layer.projector; }))
+    fault(place, fmt::format("light {} stands at no node", in_quotes(light.name)));
 }
 
 void Validator::check_meshes() {
@@ -389,6 +420,13 @@ void Validator::check_light(const Light& light, const std::string& place) {
   }
   if (light.type == LightType::directional && !light.fit && !light.projection.is_orthographic) {
     fault(place + ".projection", "a directional light's projection must be orthographic");
+  }
+  check_enumerator(place + ".blend", light.blend, BlendMode::dot3);
+  if (light.blend != BlendMode::add) {
+    if (light.type != LightType::projector)
+      fault(place + ".blend", "only a projector combines with light in another way than add");
+    if (const std::string_view message = find_light_fault(light.blend); !message.empty())
+      fault(place + ".blend", std::string(message));
   }
   check_panel(light, place);
   check_distortion(light, place + ".distortion");

@@ -62,4 +62,10 @@ BoundLight::BoundLight(const frame::PlacedLight& placed, const raster::RasterVie
   }
 }
 
+BoundLight with_open_gate(BoundLight projector, const frame::PlacedLight& placed) {
+  projector.slide = nullptr;
+  std::fill_n(projector.color, 3, projector.is_papers ? 1.0F : static_cast<float>(placed.intensity));
+  return projector;
+}
+
 }  // namespace laterna::shade

@@ -48,6 +48,9 @@ struct BoundLight {
              int anisotropy);
 };
 
+/// The same projector with neither slide nor colour before its lamp.
+BoundLight with_open_gate(BoundLight projector, const frame::PlacedLight& placed);
+
 /// Light arriving at samples if nothing stood in its way.
 struct Irradiance {
   /// On a surface square to the light, per colour: lux in photometric units. 0 where the light does not shine.

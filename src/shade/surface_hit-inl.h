@@ -14,6 +14,7 @@
 #include "frame/triangle_corners-inl.h"
 #include "laterna/shading.h"
 #include "shade/pixel_rays.h"
+#include "shadow/surface_samples.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace laterna::shade::HWY_NAMESPACE {
@@ -146,6 +147,16 @@ HWY_INLINE Hit FindHit(const PixelRays& rays, const Facet& facet, FloatVector x,
   hit.weights.dc_dy = Dot(dp_dy, facet.to_c);
   if (interpolation == Interpolation::affine) MakeAffine(rays, facet.corners, x, y, hit.weights);
   return hit;
+}
+
+// Whether all samples of a group lie on one.
+HWY_INLINE bool IsOneTriangle(const TriangleId* ids) {
+  const UintTag du;
+  const auto first = hn::Set(du, ids[0]);
+  for (std::size_t k = 0; k < shadow::kGroupSize; k += kLanes) {
+    if (!hn::AllTrue(du, hn::LoadU(du, ids + k) == first)) return false;
+  }
+  return true;
 }
 
 }  // namespace laterna::shade::HWY_NAMESPACE

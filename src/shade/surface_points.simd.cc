@@ -156,15 +156,6 @@ HWY_INLINE void FindPoints(const PointSource& source, const frame::Surface& surf
   Store3(emissive, p.emissive_r.data(), p.emissive_g.data(), p.emissive_b.data(), i);
 }
 
-HWY_INLINE bool IsOneTriangle(const TriangleId* ids) {
-  const UintTag du;
-  const auto first = hn::Set(du, ids[0]);
-  for (std::size_t k = 0; k < kGroupSize; k += kLanes) {
-    if (!hn::AllTrue(du, hn::LoadU(du, ids + k) == first)) return false;
-  }
-  return true;
-}
-
 void find_surface_points(const PointSource& source, const frame::Surface& surface,
                          shadow::SurfaceSamples& samples, SurfacePoints& points) {
   const PixelRays rays(*source.view);

@@ -5,6 +5,7 @@
 #include "base/stopwatch.h"
 #include "shade/affine_slide.h"
 #include "shade/fragment_list.h"
+#include "shade/light_blender.h"
 #include "shade/sample_batch.h"
 #include "shade/scatter.h"
 #include "shade/surface_groups.h"
@@ -43,6 +44,8 @@ void scale(TileColor& color, float factor) {
   scale(color.b, factor);
 }
 
+bool does_not_add(const ShaderLight& light) { return light.open.has_value(); }
+
 }  // namespace
 
 class TileShader::Worker {
@@ -75,6 +78,12 @@ class TileShader::Worker {
       photographs_ =
           std::make_unique<PhotographPainter>(job.photographs, job.wanted.photographs, job.instruction_set);
     }
+    for (const frame::Surface& surface : job.frame->surfaces)
+      most_layers_ = std::max(most_layers_, surface.layers.size());
+    if (most_layers_ > 0)
+      layer_painter_ = std::make_unique<LayerPainter>(source_, job.decals, job.instruction_set);
+    if (std::any_of(job.lights.begin(), job.lights.end(), does_not_add))
+      light_blender_ = std::make_unique<LightBlender>(job.instruction_set);
     has_lights_to_leave_out_ =
         std::any_of(job.lights.begin(), job.lights.end(),
                     [](const ShaderLight& light) { return !light.reach.is_everywhere(); });
@@ -168,15 +177,52 @@ class TileShader::Worker {
   };
 
   void shade_visible(std::span<const ColorTarget> targets, const Part& part) {
+    for_each_visible_batch([&](const frame::Surface& surface) { shade_batch(surface, targets, part, true); });
+  }
+
+  // Calls `use` with samples_ filled in, all of that surface.
+  template <class Use>
+  void for_each_visible_batch(Use use) {
     groups_.collect(ids_);
     for (const SurfaceGroups::Group& group : groups_.groups()) {
       for (std::size_t first = 0; first < group.blocks.size(); first += kMaxGroups) {
         const std::size_t count = std::min(kMaxGroups, group.blocks.size() - first);
         fill_from_blocks_(origin(), std::span(group.blocks).subspan(first, count), depth_.data(), ids_.data(),
                           *samples_);
-        shade_batch(job_.frame->surfaces[group.surface], targets, part, true);
+        use(job_.frame->surfaces[group.surface]);
       }
     }
+  }
+
+  // Several textures on one primitive, the old way (MIT 6.837, lecture 20, slide 17): every polygon is scan-converted
+  // again for each layer, whose pass combines it with the base colour that the passes before have left in the frame
+  // buffer base_colors_.
+  void lay_in_passes() {
+    for (std::size_t pass = 0; pass < most_layers_; ++pass) {
+      scan_convert_again();
+      for_each_visible_batch([&](const frame::Surface& surface) {
+        if (pass >= surface.layers.size()) return;
+        find_surface_points_(source_, surface, *samples_, *points_);
+        if (pass > 0) {
+          load_base_colors();
+        } else if (photographs_ != nullptr) {
+          paint_photographs(false);
+        }
+        map_ms_ += layer_painter_->paint(surface.layers[pass], *samples_, *points_);
+        scatter(*samples_, points_->base_r.data(), base_colors_.r.data());
+        scatter(*samples_, points_->base_g.data(), base_colors_.g.data());
+        scatter(*samples_, points_->base_b.data(), base_colors_.b.data());
+      });
+    }
+  }
+
+  void load_base_colors() {
+    for_each_sample(*samples_, samples_->active, [&](std::size_t i) {
+      const std::uint32_t pixel = samples_->pixel[i];
+      points_->base_r[i] = base_colors_.r[pixel];
+      points_->base_g[i] = base_colors_.g[pixel];
+      points_->base_b[i] = base_colors_.b[pixel];
+    });
   }
 
   // Segal et al. 1992, sections 3.1 and 3.3. Pass 1, hidden surface removal, has left z_p in depth_; c_p starts as the
@@ -185,6 +231,7 @@ class TileShader::Worker {
   // slides by c once, at the end; multiplied slide by slide it is the same number, and what each light gives stays
   // its own layer.)
   void shade_in_passes(std::span<const ColorTarget> targets) {
+    lay_in_passes();
     shade_visible(targets, {true, 0, 0});
     keep_pass(0);
     for (std::size_t light = 0; light < job_.lights.size(); ++light) {
@@ -240,6 +287,9 @@ class TileShader::Worker {
     find_surface_points_(source_, surface, *samples_, *points_);
     end_stage(Stage::surface);
     if (photographs_ != nullptr) paint_photographs(is_opaque);
+    if (!surface.layers.empty()) lay_layers(surface, is_opaque);
+    if (light_blender_ != nullptr)
+      light_blender_->start(*samples_, targets.subspan(0, part.first_light == 0 ? 0 : part.first_light + 1));
     if (part.ambient) {
       find_ambient_(job_.reflection, surface, groups, *points_, *radiance_);
       if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
@@ -251,7 +301,7 @@ class TileShader::Worker {
     for (std::size_t light = part.first_light; light < part.end_light; ++light) {
       if (surface.unlit && !wants_arrival(is_opaque)) continue;
       const ShaderLight& shader_light = job_.lights[light];
-      if (may_leave_out && !shader_light.reach.touches(bounds)) continue;
+      if (may_leave_out && !shader_light.open && !shader_light.reach.touches(bounds)) continue;
       find_irradiance(shader_light.bound);
       end_stage(Stage::light);
       const double drawing_ms = find_arrival(shader_light, wants_arrival(is_opaque));
@@ -259,12 +309,47 @@ class TileShader::Worker {
       const shadow::Arrival& seen = apply_tone(shader_light.tone, groups);
       if (is_opaque) store_light_layers(light, seen);
       if (surface.unlit) continue;
+      if (light_blender_ != nullptr) {
+        blend_light(shader_light, seen, sums, targets, light);
+        continue;
+      }
       reflect_(job_.reflection, groups, *points_, *irradiance_, seen, shader_light.tone.fill(), sums,
                *radiance_);
       if (!sums) scatter_radiance_(*samples_, *radiance_, targets[light + 1]);
     }
     if (sums) scatter_radiance_(*samples_, *radiance_, targets[0]);
     end_stage(Stage::light);
+  }
+
+  // Light that meets light of other modes than add.
+  void blend_light(const ShaderLight& light, const shadow::Arrival& seen, bool sums,
+                   std::span<const ColorTarget> targets, std::size_t index) {
+    const std::size_t groups = samples_->group_count;
+    Radiance& change = light_blender_->change();
+    reflect_(job_.reflection, groups, *points_, *irradiance_, seen, light.tone.fill(), false, change);
+    if (light.open) {
+      find_irradiance(*light.open);
+      reflect_(job_.reflection, groups, *points_, *irradiance_, light_blender_->unhindered(), 0, false,
+               light_blender_->open());
+      light_blender_->blend(light.open->light->blend, groups);
+    } else {
+      light_blender_->add(groups);
+    }
+    if (sums) {
+      add(*radiance_, change, groups);
+    } else {
+      scatter_radiance_(*samples_, change, targets[index + 1]);
+    }
+  }
+
+  // Layers of the surface on its base colour; in many passes they are there already.
+  void lay_layers(const frame::Surface& surface, bool is_opaque) {
+    if (job_.passes == Passes::multi && is_opaque) return load_base_colors();
+    double drawing_ms = 0;
+    for (const frame::LayerBinding& layer : surface.layers)
+      drawing_ms += layer_painter_->paint(layer, *samples_, *points_);
+    map_ms_ += drawing_ms;
+    end_stage(Stage::surface, drawing_ms);
   }
 
   // Base colours from photographs.
@@ -382,11 +467,11 @@ class TileShader::Worker {
     if (wanted.slide_uv && sample_ == 0 && job_.lights[light].bound.light->type == LightType::projector) {
       layers_.store_slide_coordinates(light, s, *irradiance_);
     }
-    if (keeps_illumination()) {
+    if (keeps_illumination() && !job_.lights[light].open) {
       TileLayers::add_illumination(s, *irradiance_, seen, result_.pass_illumination[light]);
     }
     if (wanted.pixel_density && sample_ == 0) layers_.store_pixel_density(light, s);
-    if (!wanted.lux) return;
+    if (!wanted.lux || job_.lights[light].open) return;
     if (!job_.physical_lights.empty()) find_irradiance(job_.physical_lights[light]);
     layers_.add_lux(s, *irradiance_, *arrival_);
     if (!job_.physical_lights.empty()) find_irradiance(job_.lights[light].bound);
@@ -455,6 +540,10 @@ class TileShader::Worker {
   std::unique_ptr<Radiance> radiance_;
   std::unique_ptr<shadow::Arrival> arrival_, seen_;
   std::unique_ptr<PhotographPainter> photographs_;  // null: there are none
+  std::size_t most_layers_ = 0;                     // of any surface
+  std::unique_ptr<LayerPainter> layer_painter_;     // null: no surface has layers
+  TileColor base_colors_;                        // of the tile's surfaces that have layers, with many passes
+  std::unique_ptr<LightBlender> light_blender_;  // null: all lights add
   TileResult result_;
   TileLayers layers_;
 

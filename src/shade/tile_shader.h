@@ -3,12 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "laterna/stages.h"
 #include "raster/tile_raster.h"
 #include "shade/illumination.h"
+#include "shade/layer_painter.h"
 #include "shade/light_reach.h"
 #include "shade/photograph_painter.h"
 #include "shade/shadow_tone.h"
@@ -25,6 +27,8 @@ struct ShaderLight {
   /// Null: nothing stands in its way.
   std::unique_ptr<shadow::ShadowTechnique> shadow;
   ShadowTone tone;
+  /// The light with nothing before its lamp, where it does more than add (Light::blend).
+  std::optional<BoundLight> open = std::nullopt;
 };
 
 /// Sample positions of a pixel, in 1/256 pixel from its centre.
@@ -42,6 +46,7 @@ struct ShaderJob {
   std::span<const raster::Batch> batches;
   std::vector<ShaderLight> lights;
   PhotographJob photographs;
+  std::vector<ShaderDecal> decals;          // the frame's
   std::vector<BoundLight> physical_lights;  // for lux where the model is not physical; otherwise empty
   ReflectionSettings reflection;
   Interpolation interpolation = Interpolation::perspective;

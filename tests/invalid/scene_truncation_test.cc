@@ -57,7 +57,8 @@ TEST(SceneTruncation, EveryCutOfARigIsRefused) {
     "ambient": [0.1, 0.2, 0.3],
     "cameras": [{"name": "main", "position": [0, 1, 5], "target": [0, 1, 0], "yfov_deg": 40}],
     "lights": [{"type": "spot", "position": [0, 5, 0], "target": [0, 0, 0], "candela": 1e2, "shadow": {"resolution": 512}}],
-    "nodes": []})";
+    "nodes": [],
+    "surfaces": [{"material": "wall", "layers": [{"color": [1, 0, 0], "blend": "min", "opacity": 0.5}]}]})";
   ASSERT_TRUE(read_rig(text, "r.json", "nowhere").has_value());
   for (std::size_t length = 0; length < text.size(); ++length) {
     EXPECT_FALSE(read_rig(std::string_view(text).substr(0, length), "r.json", "nowhere").has_value())

@@ -29,6 +29,7 @@ struct Chapter {
 
 Chapter segal_1992_chapter();
 Chapter chen_tung_chapter();
+Chapter mit_lecture_20_chapter();
 Chapter wikipedia_chapter();
 Chapter bentley_chapter();
 Chapter later_chapter();
