@@ -52,6 +52,7 @@ PUBLIC_HEADERS = {
     "stages.h": "base",
     "technique_choice.h": "scene",
     "view.h": "base",
+    "write_scene.h": "scene",
 }
 
 # Libraries that belong to one room: nobody else may know that they are there. measure/build_info.cc prints the

@@ -17,6 +17,7 @@
 #include "scene/gltf_textures.h"
 #include "scene/json_document.h"
 #include "scene/json_object.h"
+#include "scene/scene_settings.h"
 #include "scene/unique_names.h"
 
 namespace laterna {
@@ -27,9 +28,16 @@ namespace {
 class SceneBuilder {
  public:
   SceneBuilder(const JsonDocument& json, Meshes& meshes, Accessors& accessors, Lamps& lamps,
-               FaultList& faults)
-      : json_(json), meshes_(meshes), accessors_(accessors), lamps_(lamps), faults_(faults) {
+               LightExtensions& light_extensions, FaultList& faults)
+      : json_(json),
+        meshes_(meshes),
+        accessors_(accessors),
+        lamps_(lamps),
+        light_extensions_(light_extensions),
+        faults_(faults) {
     JsonObject root(json, json.root(), faults);
+    FaultList told(faults.file());  // with the nodes
+    if (const JsonValue* scene = default_scene(json, told)) read_lighting(*scene);
     cameras_ = root.array("cameras");
     lights_ = find_lights(json, faults);
   }
@@ -40,6 +48,7 @@ class SceneBuilder {
     node.name = object.string("name").value_or("");
     node.parent = placed.parent;
     node.parent_from_node = node_matrix(json_, *placed.json, faults_);
+    read_flags(*placed.json, node);
     if (const int mesh = object.index("mesh", meshes_.count(), "meshes"); mesh >= 0) {
       node.mesh = meshes_.use(mesh, object.array("weights"));
       node.node_from_instance =
@@ -57,7 +66,7 @@ class SceneBuilder {
       if (light >= 0) node.light = add_light(lights_->children[static_cast<std::size_t>(light)], node.name);
     }
     scene_.nodes.push_back(std::move(node));
-    if (std::optional<Light> lamp = lamps_.read(*placed.json))
+    if (std::optional<Light> lamp = lamps_.read(*placed.json, light_extensions_))
       hang_lamp(std::move(*lamp), static_cast<int>(scene_.nodes.size()) - 1);
   }
 
@@ -86,6 +95,24 @@ class SceneBuilder {
   }
 
  private:
+  void read_lighting(const JsonValue& scene) {
+    const JsonValue* extension = find_extension(scene, kLightingExtension);
+    if (extension == nullptr) return;
+    JsonObject object(json_, *extension, faults_, kGltfNames);
+    for (const std::string_view allowed : {"extensions", "extras"}) object.any(allowed);
+    read_scene_settings(json_, object, faults_, scene_);
+    object.report_unknown_members("a scene");
+  }
+
+  void read_flags(const JsonValue& value, Node& node) {
+    const JsonValue* extension = find_extension(value, kLightingExtension);
+    if (extension == nullptr) return;
+    JsonObject object(json_, *extension, faults_, kGltfNames);
+    for (const std::string_view allowed : {"extensions", "extras"}) object.any(allowed);
+    read_node_flags(object).apply(node);
+    object.report_unknown_members("a node");
+  }
+
   // The thing's own name; where that is missing or belongs to another node already, the node's.
   static std::string name_for(const std::string& own, const std::string& node, const std::string& fallback,
                               UniqueNames& names) {
@@ -104,7 +131,7 @@ class SceneBuilder {
   }
 
   int add_light(const JsonValue& value, const std::string& node_name) {
-    std::optional<Light> light = read_light(json_, value, faults_);
+    std::optional<Light> light = read_light(json_, value, light_extensions_, faults_);
     if (!light) return -1;
     const std::size_t index = scene_.lights.size();
     light->name = name_for(light->name, node_name, fmt::format("light {}", index + 1), light_names_);
@@ -116,6 +143,7 @@ class SceneBuilder {
   Meshes& meshes_;
   Accessors& accessors_;
   Lamps& lamps_;
+  LightExtensions& light_extensions_;
   FaultList& faults_;
   struct LampOfLitNode {
     int light, parent;
@@ -143,7 +171,8 @@ Result<Scene> read_document(const JsonDocument& json, const Container& container
   Meshes meshes(json, buffers, accessors, materials, faults);
   const std::vector<PlacedNode> placed = placed_nodes(json, faults);
   Lamps lamps(json, buffers, folder, faults);
-  SceneBuilder builder(json, meshes, accessors, lamps, faults);
+  LightExtensions light_extensions(json, textures, folder, faults);
+  SceneBuilder builder(json, meshes, accessors, lamps, light_extensions, faults);
   for (const PlacedNode& node : placed) builder.add(node);
   if (faults.has_errors()) return failure(faults);
   Scene scene = builder.take();
