@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Source{"features/draco_heart.glb"}, Source{"features/geometry-camera-light.glb"},
                     Source{"features/lights_dir_point_spot.glb"}, Source{"features/meshopt_pirate.glb"},
                     Source{"features/texture_transform_blender/09_texture_transform.gltf"},
-                    Source{"features/vertex_count_32bit/VertexCount.gltf"},
+                    Source{"features/vertex_count_32bit/01_vertex_count_32bit.gltf"},
                     Source{"flighthelmet/FlightHelmet.gltf"}, Source{"sponza/sponza_dabrovic.gltf"},
                     Source{"architecture/house.glb"}));
 
