@@ -121,7 +121,7 @@ Texture Textures::read(JsonObject& owner, std::string_view name, const std::stri
 int Textures::read_picture(JsonObject& owner, std::string_view name) {
   const JsonValue* value = owner.object(name);
   if (value == nullptr) return -1;
-  if (value->find("index") == nullptr) return make_picture(*value, json_.path(*value));
+  if (value->find("index") == nullptr) return make_picture(*value, {});
   JsonObject info(json_, *value, faults_);
   for (const std::string_view elsewhere : {"uri", "bufferView"}) {
     if (info.has(elsewhere))
@@ -182,11 +182,12 @@ int Textures::picture_from_view(JsonObject& image) {
 int Textures::picture_from_uri(JsonObject& image, const std::string& used_by) {
   const std::optional<std::string> uri = image.string("uri");
   if (!uri) return -1;
+  const std::string for_whom = used_by.empty() ? std::string() : "; used by " + used_by;
   Picture picture;
   if (!is_data_uri(*uri)) {
     auto path = resolve_file(folder_, *uri);
     if (!path) {
-      image.error("uri", fmt::format("{}; used by {}", path.error(), used_by));
+      image.error("uri", path.error() + for_whom);
       return -1;
     }
     picture.file = std::move(*path);
@@ -195,11 +196,11 @@ int Textures::picture_from_uri(JsonObject& image, const std::string& used_by) {
   }
   auto decoded = decode_data_uri(*uri);
   if (!decoded) {
-    image.error("uri", fmt::format("{}; used by {}", decoded.error(), used_by));
+    image.error("uri", decoded.error() + for_whom);
     return -1;
   }
   if (decoded->empty()) {
-    image.error("uri", fmt::format("the data URI is empty; used by {}", used_by));
+    image.error("uri", "the data URI is empty" + for_whom);
     return -1;
   }
   picture.name = fmt::format("{}: {}", faults_.file(), json_.path(image.value()));

@@ -617,7 +617,9 @@ const Case kGltfCases[] = {
     {"ProjectorImage",
      {{"/extensions/KHR_lights_punctual/lights/0/extensions",
        R"({"LATERNA_projector": {"yfov": 1, "intensityMap": {"uri": "none.exr"}}})"}},
-     "@"},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.intensityMap.uri: "
+     "\"none.exr\" not "
+     "found (tried \"none.exr\")"},
     {"ProjectorFilmElsewhere",
      {{"/extensions/KHR_lights_punctual/lights/0/extensions",
        R"({"LATERNA_projector": {"yfov": 1, "film": "/tmp/f.####.png"}})"}},
@@ -669,7 +671,7 @@ const Case kGltfCases[] = {
     {"LightingOfACamera",
      {{"/cameras/0/extensions",
        R"({"LATERNA_lighting": {"frustum": {"left": 1, "right": 0, "bottom": 0, "top": 1}}})"}},
-     "@@"},
+     "f.gltf: cameras[0].extensions.LATERNA_lighting: the frustum has no width or no height"},
 
     // Several at once.
     {"Several",
