@@ -24,7 +24,8 @@ struct Plain {
 Plain perspective(const Camera& camera) {
   const Projection& p = camera.projection;
   // About the axis, as wide as the widest side.
-  Json best = {{"yfov", 2 * arctangent(std::max(-p.bottom, p.top))}, {"znear", p.near}};
+  constexpr double kWidest = kPi * 0.999999;
+  Json best = {{"yfov", std::min(2 * arctangent(std::max(-p.bottom, p.top)), kWidest)}, {"znear", p.near}};
   const double width = std::max(-p.left, p.right), height = std::max(-p.bottom, p.top);
   if (!camera.aspect_from_picture) best["aspectRatio"] = width / height;
   if (p.left == -p.right && p.bottom == -p.top) {
@@ -46,13 +47,14 @@ Plain perspective(const Camera& camera) {
 
 Plain orthographic(const Camera& camera) {
   const Projection& p = camera.projection;
-  const double xmag = std::max(-p.left, p.right), ymag = std::max(-p.bottom, p.top),
-               near = std::max(p.near, 0.0);
+  const double xmag = std::max(-p.left, p.right), ymag = std::max(-p.bottom, p.top);
+  // glTF's own cannot see what is behind the camera.
+  const double near = std::max(p.near, 0.0), far = p.far > near ? p.far : near + 1;
   Plain plain;
-  plain.camera.projection = Projection::orthographic(xmag, ymag, near, p.far);
+  plain.camera.projection = Projection::orthographic(xmag, ymag, near, far);
   plain.camera.aspect_from_picture = false;
   plain.json = {{"type", "orthographic"},
-                {"orthographic", {{"xmag", xmag}, {"ymag", ymag}, {"zfar", p.far}, {"znear", near}}}};
+                {"orthographic", {{"xmag", xmag}, {"ymag", ymag}, {"zfar", far}, {"znear", near}}}};
   return plain;
 }
 

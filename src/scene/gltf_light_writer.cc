@@ -10,6 +10,7 @@
 #include "scene/gltf_setting_writer.h"
 #include "scene/ies_writer.h"
 #include "scene/light_flux.h"
+#include "scene/rig_ranges.h"
 
 namespace laterna::gltf {
 namespace {
@@ -92,6 +93,12 @@ Shine shine_of(const glm::vec3& color, double intensity) {
   const float most = std::max({color.x, color.y, color.z});
   if (most <= 1) return {color, intensity};
   return {glm::min(color / most, glm::vec3(1)), intensity * most};
+}
+
+// Whether our extensions take the numbers of how bright it is; glTF's own have no limit.
+bool is_sayable(const Light& light) {
+  return kAmountOfLight.holds(std::max({light.color.x, light.color.y, light.color.z})) &&
+         kAmountOfLight.holds(light.lumens.value_or(light.intensity));
 }
 
 void set_source(Json& json, const LightSource& source) {
@@ -186,11 +193,17 @@ Result<Json> LightWriter::extension(const Light& light, const Light& plain, cons
   if (light.attenuation == Attenuation::custom)
     document_.warn(place + ".custom_attenuation", "a function cannot be written down: inverse_square is");
   if (!light.enabled) json["enabled"] = false;
-  if (light.color != plain.color) json["color"] = components(light.color);
-  if (light.lumens) {
-    set(json, "lumens", *light.lumens);
-  } else if (light.intensity != plain.intensity) {
-    json["intensity"] = light.intensity;
+  if (is_sayable(light)) {
+    if (light.color != plain.color) json["color"] = components(light.color);
+    if (light.lumens) {
+      set(json, "lumens", *light.lumens);
+    } else if (light.intensity != plain.intensity) {
+      json["intensity"] = light.intensity;
+    }
+  } else {
+    document_.warn(
+        place, fmt::format("brighter than {}: colour and intensity come back as others of the same product",
+                           kAmountOfLight.high));
   }
   set_source(json, light.source);
   if (light.type == LightType::directional) {
@@ -213,7 +226,7 @@ Result<Json> LightWriter::extension(const Light& light, const Light& plain, cons
 }
 
 Result<void> LightWriter::set_projector(Json& json, const Light& light) {
-  if (const Result<void> written = set_slide(json, light); !written) return written;
+  if (Result<void> written = set_slide(json, light); !written) return written;
   if (light.profile != BeamProfile::flat_field && !light.slide_is_intensity)
     json["profile"] = word("uniform_candela");
   if (light.outside != Outside::black) json["outside"] = word(name_of(light.outside));

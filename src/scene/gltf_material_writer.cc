@@ -11,6 +11,9 @@
 namespace laterna::gltf {
 namespace {
 
+// Of KHR_materials_emissive_strength, as far as it is read: a power of two below a million.
+constexpr float kMostStrength = 524288;
+
 // One material. An error ends the whole file.
 class MaterialWriter {
  public:
@@ -63,7 +66,7 @@ class MaterialWriter {
     if (material.emissive == glm::vec3(0)) return;
     const float most = std::max({material.emissive.x, material.emissive.y, material.emissive.z});
     float strength = 1;
-    while (strength < most) strength *= 2;
+    while (strength < most && strength < kMostStrength) strength *= 2;
     json["emissiveFactor"] = components(material.emissive / strength);
     if (strength > 1) {
       document_.extend(json, "KHR_materials_emissive_strength", {{"emissiveStrength", shortest(strength)}});

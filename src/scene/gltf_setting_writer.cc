@@ -12,6 +12,9 @@
 namespace laterna::gltf {
 namespace {
 
+// Of a lens, as far as it is read (scene/rig_frustum.cc): heights and widths of the picture.
+constexpr double kMostShift = 100;
+
 // The numbers next to one, nearest first: of those from which it may have been calculated, one gives its very bits.
 constexpr int kNeighbours = 6;
 std::array<double, 2 * kNeighbours + 1> neighbours(double value) {
@@ -65,14 +68,17 @@ std::optional<Opening> find_opening(const Projection& p, bool aspect_from_pictur
   if (!is_centred) {
     shifts.clear();
     for (const double x : typed((p.left + p.right) / 2 / width)) {
-      for (const double y : typed((p.bottom + p.top) / 2 / height)) shifts.emplace_back(glm::dvec2(x, y));
+      for (const double y : typed((p.bottom + p.top) / 2 / height)) {
+        if (std::max(std::abs(x), std::abs(y)) <= kMostShift) shifts.emplace_back(glm::dvec2(x, y));
+      }
     }
   }
   for (const double size : neighbours(yfov_or_height)) {
+    const bool is_opening = size > 0 && (p.is_orthographic || size < kPi);
     for (const double aspect : aspects) {
       for (const auto& shift : shifts) {
         const Opening opening{size, aspect, shift};
-        if (is_same(made(opening, p), p)) return opening;
+        if (is_opening && is_same(made(opening, p), p)) return opening;
       }
     }
   }

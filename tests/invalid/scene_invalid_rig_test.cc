@@ -92,6 +92,10 @@ const RigCase kRigCases[] = {
      "r.json: line 1: cameras[0].yfov_deg: expected a number between 0 and 180, got 180"},
     {"FieldOfViewWord", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": \"40\"}]}",
      "r.json: line 1: cameras[0].yfov_deg: expected a number between 0 and 180, got \"40\""},
+    {"FrustumWithAspect",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"aspect\": 2, \"frustum\": {\"left\": -1, "
+     "\"right\": 1, \"bottom\": -1}}]}",
+     "r.json: line 1: cameras[0].aspect: follows from the sides of the frustum"},
     {"FieldOfViewMissing", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0]}]}",
      "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
      "\"intrinsics\", \"orthographic\", \"frustum\""},
