@@ -308,30 +308,41 @@ Result<void> LightWriter::hang(int index, const std::string& node_name, Json& no
   return {};
 }
 
-// The extension's lights are their profiles, which several may share; one that is not called like its node needs a name.
-Result<int> LightWriter::profile(const Light& light, const std::string& node_name) {
-  const std::string name = light.name == node_name ? std::string() : light.name;
-  const LightDistribution* lamp = light.distribution.get();
-  const auto [entry, is_new] = lamp_.try_emplace({lamp, name}, -1);
-  if (!is_new) return entry->second;
-  if (lamp_file_.find(lamp) == lamp_file_.end()) {
-    const auto text = write_ies(*lamp);
-    if (!text) {
-      return tl::unexpected(
-          Error(Failure::bad_usage,
-                Diagnostic{{}, fmt::format("lights: \"{}\".distribution", light.name), text.error()}));
-    }
+// Lamps of the same numbers are one file, wherever they were read from.
+Result<int> LightWriter::lamp_file(const Light& light) {
+  const auto known = file_of_lamp_.find(light.distribution.get());
+  if (known != file_of_lamp_.end()) return known->second;
+  const auto text = write_ies(*light.distribution);
+  if (!text) {
+    return tl::unexpected(
+        Error(Failure::bad_usage,
+              Diagnostic{{}, fmt::format("lights: \"{}\".distribution", light.name), text.error()}));
+  }
+  const auto [entry, is_new] = file_of_text_.try_emplace(*text, static_cast<int>(lamp_files_.size()));
+  if (is_new) {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(*text));
     Json file;
     if (surroundings_.embeds()) {
       file = {{"bufferView", document_.add_view(bytes)}, {"mimeType", "application/x-ies-lm-63"}};
     } else {
       file["uri"] =
-          surroundings_.add(fmt::format("lamp{}.ies", lamp_file_.size() + 1), {bytes.begin(), bytes.end()});
+          surroundings_.add(fmt::format("lamp{}.ies", lamp_files_.size() + 1), {bytes.begin(), bytes.end()});
     }
-    lamp_file_.emplace(lamp, std::move(file));
+    lamp_files_.push_back(std::move(file));
   }
-  Json json = lamp_file_.at(lamp);
+  file_of_lamp_.emplace(light.distribution.get(), entry->second);
+  return entry->second;
+}
+
+// The extension's lights are lamp files, which several nodes may share; a light that is not called like its node needs its name
+// there.
+Result<int> LightWriter::profile(const Light& light, const std::string& node_name) {
+  const std::string name = light.name == node_name ? std::string() : light.name;
+  Result<int> file = lamp_file(light);
+  if (!file) return file;
+  const auto [entry, is_new] = profiles_.try_emplace({*file, name}, -1);
+  if (!is_new) return entry->second;
+  Json json = lamp_files_[static_cast<std::size_t>(*file)];
   if (!name.empty()) json["name"] = name;
   Json& lights = document_.extension(kLamps)["lights"];
   entry->second = static_cast<int>(lights.size());

@@ -37,6 +37,7 @@ class LightWriter {
   Result<Json> extension(const Light& light, const Light& plain, const std::string& place);
   Result<void> set_projector(Json& json, const Light& light);
   Result<void> set_slide(Json& json, const Light& light);
+  Result<int> lamp_file(const Light& light);
   Result<int> profile(const Light& light, const std::string& node_name);
 
   const Scene& scene_;
@@ -44,8 +45,11 @@ class LightWriter {
   Surroundings& surroundings_;
   Document& document_;
   std::vector<int> index_of_;  // in KHR_lights_punctual; −1: a lamp
-  std::map<std::pair<const LightDistribution*, std::string>, int> lamp_;  // in EXT_lights_ies, by name
-  std::map<const LightDistribution*, Json> lamp_file_;                    // where its bytes are
+  // Measured lamps: where their bytes are, by lamp and by text; and EXT_lights_ies.lights by file and name.
+  std::vector<Json> lamp_files_;
+  std::map<const LightDistribution*, int> file_of_lamp_;
+  std::map<std::string, int> file_of_text_;
+  std::map<std::pair<int, std::string>, int> profiles_;
 };
 
 }  // namespace laterna::gltf

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <cstring>
 
 #include "scene/gltf_light_extensions.h"
 #include "scene/gltf_setting_writer.h"
@@ -11,11 +11,14 @@
 namespace laterna::gltf {
 namespace {
 
+// Zeros of either sign, too: what is stored with a picture shows them.
+bool is_same(const glm::dmat4& a, const glm::dmat4& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
+
 void set_matrix(Json& node, const glm::dmat4& matrix) {
+  if (is_same(matrix, glm::dmat4(1.0))) return;
   glm::dmat4 moved(1.0);
   moved[3] = matrix[3];
-  if (matrix == glm::dmat4(1.0)) return;
-  if (matrix == moved) {
+  if (is_same(matrix, moved)) {
     node["translation"] = {matrix[3][0], matrix[3][1], matrix[3][2]};
     return;
   }

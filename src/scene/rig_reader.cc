@@ -57,7 +57,7 @@ class RigFiles final : public LightFiles {
 class RigReader {
  public:
   RigReader(const JsonDocument& json, const std::filesystem::path& folder, FaultList& faults)
-      : json_(json), faults_(faults), files_(folder, rig_.scene.pictures) {}
+      : json_(json), folder_(folder), faults_(faults), files_(folder_, rig_.scene.pictures) {}
 
   Rig read() {
     JsonObject root(json_, json_.root(), faults_);
@@ -150,6 +150,7 @@ class RigReader {
   }
 
   const JsonDocument& json_;
+  const std::filesystem::path& folder_;
   FaultList& faults_;
   UniqueNames camera_names_, light_names_;
   Rig rig_;
