@@ -27,7 +27,7 @@ Plain perspective(const Camera& camera) {
   constexpr double kWidest = kPi * 0.999999;
   Json best = {{"yfov", std::min(2 * arctangent(std::max(-p.bottom, p.top)), kWidest)}, {"znear", p.near}};
   const double width = std::max(-p.left, p.right), height = std::max(-p.bottom, p.top);
-  if (!camera.aspect_from_picture) best["aspectRatio"] = width / height;
+  if (!camera.aspect_from_picture) best["aspectRatio"] = std::clamp(width / height, 1e-30, 1e30);
   if (p.left == -p.right && p.bottom == -p.top) {
     Json exact = Json::object();
     set_frustum(exact, p, FrustumOf::camera, camera.aspect_from_picture);

@@ -90,6 +90,9 @@ struct Shine {
   double intensity;
 };
 Shine shine_of(const glm::vec3& color, double intensity) {
+  // Lumens within next to nothing: endless is no number in JSON.
+  constexpr double kMost = 1e30;
+  if (!(intensity <= kMost)) intensity = kMost;
   const float most = std::max({color.x, color.y, color.z});
   if (most <= 1) return {color, intensity};
   return {glm::min(color / most, glm::vec3(1)), intensity * most};

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "scene/gltf_light_extensions.h"
 #include "scene/gltf_setting_writer.h"
@@ -121,8 +123,10 @@ class NodeWriter {
     if (scene_.ambient_is_set) lighting["ambient"] = components(scene_.ambient);
     if (scene_.background) lighting["background"] = components(*scene_.background);
     if (scene_.phong) {
+      // An exponent of 0 cannot be said; this one does the same.
+      const float shininess = std::max(scene_.phong->shininess, std::numeric_limits<float>::min());
       lighting["shading"] = {{"specular", shortest(scene_.phong->specular)},
-                             {"shininess", shortest(scene_.phong->shininess)}};
+                             {"shininess", shortest(shininess)}};
     }
     if (!lighting.empty()) document_.extend(json, kLightingExtension, std::move(lighting));
   }

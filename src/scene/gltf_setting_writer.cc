@@ -76,6 +76,7 @@ std::optional<Opening> find_opening(const Projection& p, bool aspect_from_pictur
   for (const double size : neighbours(yfov_or_height)) {
     const bool is_opening = size > 0 && (p.is_orthographic || size < kPi);
     for (const double aspect : aspects) {
+      if (!(aspect > 0) || std::isinf(aspect)) continue;
       for (const auto& shift : shifts) {
         const Opening opening{size, aspect, shift};
         if (is_opening && is_same(made(opening, p), p)) return opening;
