@@ -70,6 +70,7 @@ std::string text_of(const LightDistribution& lamp) {
                       lamp.opening_m.z, lamp.watts);
   append_numbers(text, lamp.vertical_deg);
   std::vector<double> angles;
+  angles.reserve(planes.size());
   for (const std::size_t plane : planes) angles.push_back(lamp.horizontal_deg[plane]);
   append_numbers(text, angles);
   const std::size_t count = lamp.vertical_deg.size();
