@@ -1,12 +1,14 @@
-// Any bytes as a glTF or GLB file: read or refused, and what was read is sound.
+// Any bytes as a glTF or GLB file: read or refused, and what was read is sound and can be written.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <vector>
 
 #include "scene/gltf_reader.h"
+#include "scene/gltf_writer.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto* first = reinterpret_cast<const std::byte*>(data);
@@ -19,7 +21,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   // A sound file may still show more than is rendered, or too far away; only then are there no places.
-  if (laterna::validate(*scene).empty()) laterna::world_from_nodes(*scene);
+  if (!laterna::validate(*scene).empty()) return 0;
+  laterna::world_from_nodes(*scene);
+  // What can be written (its pictures are pictures) is read again.
+  const auto written = laterna::make_gltf(*scene, "/nonexistent/written.glb", {});
+  if (!written) return 0;
+  const auto copy = std::make_shared<const std::vector<std::byte>>(written->files.back().bytes);
+  const auto again = laterna::read_gltf(laterna::ByteSource::in_memory(copy), "written", "/nonexistent");
+  if (!again) {
+    std::fputs((to_string(again.error()) + "\n").c_str(), stderr);
+    std::abort();
+  }
   return 0;
 }
 

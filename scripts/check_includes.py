@@ -57,6 +57,7 @@ PUBLIC_HEADERS = {
     "turntable.h": "base",
     "video.h": "image",
     "view.h": "base",
+    "write_scene.h": "scene",
 }
 
 # Libraries that belong to one room: nobody else may know that they are there. measure/build_info.cc prints the

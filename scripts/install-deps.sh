@@ -11,7 +11,7 @@
 set -eu
 
 # libjpeg-dev is not ours: the CMake file of libturbojpeg0-dev refuses to load without its libjpeg.a.
-BUILD="g++ make cmake ninja-build pkgconf python3
+BUILD="g++ make cmake ninja-build pkgconf python3 python3-jsonschema
   libhwy-dev libtbb-dev libglm-dev libexpected-dev libfmt-dev
   libpng-dev libturbojpeg0-dev libjpeg-dev libopenexr-dev libdeflate-dev libisal-dev
   nlohmann-json3-dev libassimp-dev libdraco-dev libmeshoptimizer-dev

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frame/frame.h"
+#include "scene/light_flux.h"
 
 namespace laterna::frame {
 
@@ -18,19 +19,9 @@ void place_decals(const Scene& scene, const std::vector<glm::dmat4>& world_from_
 /// (row 16), whatever the profile says.
 BeamProfile beam_profile(const Light& light);
 
-/// Candela on the axis that make the frame of a projector throw `lumens` in all (row 16): flux = intensity × solid
-/// angle for uniform candela, illuminance at 1 m × area of the frame at 1 m for a flat field.
-double candela_from_lumens(double lumens, const Projection& projection, BeamProfile profile);
-
-/// The same for a picture that is thrown through a distorting lens. Distortion moves the slide's points; it changes neither
+/// candela_from_lumens() for a picture that is thrown through a distorting lens. Distortion moves the slide's points; it changes neither
 /// a flat field's illuminance nor uniform candela.
 double candela_from_lumens(double lumens, const SlideLens& lens, BeamProfile profile);
-
-/// Solid angle of a perspective frustum in steradians.
-double solid_angle(const Projection& projection);
-
-/// ∫ of a spot's angular term (KHR_lights_punctual) over all directions: lumens per candela on the axis.
-double solid_angle_of_spot(const Light& spot);
 
 /// ∫ of an intensity map over the directions of its frame, in steradians: lumens per candela at value 1. Of a coloured
 /// map its Rec. 709 luminance counts.

@@ -13,7 +13,7 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 14> kRead = {
+constexpr std::array<std::string_view, 16> kRead = {
     "EXT_lights_ies",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
@@ -24,6 +24,8 @@ constexpr std::array<std::string_view, 14> kRead = {
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
+    "LATERNA_lighting",
+    "LATERNA_projector",
     // Safe to leave out: they hold alternatives or descriptions of what is read anyway.
     "KHR_materials_variants",
     "KHR_xmp",

@@ -23,7 +23,7 @@ Lamps::Lamps(const JsonDocument& json, Buffers& buffers, std::filesystem::path f
   if (list_ != nullptr) profiles_.resize(list_->children.size());
 }
 
-std::optional<Light> Lamps::read(const JsonValue& node) {
+std::optional<Light> Lamps::read(const JsonValue& node, LightExtensions& extensions) {
   const JsonValue* extension = find_extension(node, kExtension);
   if (extension == nullptr) return std::nullopt;
   JsonObject object(json_, *extension, faults_);
@@ -39,7 +39,7 @@ std::optional<Light> Lamps::read(const JsonValue& node) {
   if (light.distribution == nullptr) return std::nullopt;
   const JsonValue& value = list_->children[static_cast<std::size_t>(index)];
   light.name = JsonObject(json_, value, faults_).string("name").value_or("");
-  return light;
+  return extensions.extend(*extension, std::move(light));
 }
 
 std::shared_ptr<const LightDistribution> Lamps::profile(std::size_t index) {

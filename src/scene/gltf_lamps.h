@@ -10,6 +10,7 @@
 #include "laterna/scene.h"
 #include "scene/fault_list.h"
 #include "scene/gltf_buffers.h"
+#include "scene/gltf_light_extensions.h"
 #include "scene/json_document.h"
 
 namespace laterna::gltf {
@@ -20,7 +21,7 @@ class Lamps {
   Lamps(const JsonDocument& json, Buffers& buffers, std::filesystem::path folder, FaultList& faults);
 
   /// The lamp that a node's extension names; nothing where it has none, or a faulty one. Each profile is read once.
-  std::optional<Light> read(const JsonValue& node);
+  std::optional<Light> read(const JsonValue& node, LightExtensions& extensions);
 
  private:
   struct Profile {

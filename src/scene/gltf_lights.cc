@@ -7,6 +7,7 @@
 #include "base/elementary.h"
 #include "scene/gltf_extension.h"
 #include "scene/json_object.h"
+#include "scene/rig_frustum.h"
 
 namespace laterna::gltf {
 namespace {
@@ -43,6 +44,22 @@ void read_orthographic(JsonObject& object, Camera& camera) {
   camera.aspect_from_picture = false;
 }
 
+// A frustum that glTF cannot say: off the axis, or of OpenCV's intrinsics.
+void read_extended_frustum(const JsonDocument& json, const JsonValue& value, FaultList& faults,
+                           Camera& camera) {
+  const JsonValue* extension = find_extension(value, kLightingExtension);
+  if (extension == nullptr) return;
+  JsonObject object(json, *extension, faults, kGltfNames);
+  for (const std::string_view allowed : {"extensions", "extras"}) object.any(allowed);
+  const std::optional<bool> from_picture = object.boolean("aspect_from_picture");
+  const auto frustum = read_frustum(json, object, faults, FrustumOf::camera, std::nullopt,
+                                    DepthRange{camera.projection.near, camera.projection.far});
+  object.report_unknown_members("a camera");
+  if (!frustum) return;
+  camera.projection = frustum->projection;
+  camera.aspect_from_picture = from_picture.value_or(!frustum->aspect_is_given);
+}
+
 void read_spot(const JsonDocument& json, JsonObject& object, Light& light, FaultList& faults) {
   light.inner_cone = Angle::radians(0);
   light.outer_cone = Angle::radians(kPi / 4);
@@ -77,11 +94,13 @@ std::optional<Camera> read_camera(const JsonDocument& json, const JsonValue& val
   if (lens == nullptr) return std::nullopt;
   JsonObject lens_object(json, *lens, faults);
   *is_orthographic ? read_orthographic(lens_object, camera) : read_perspective(lens_object, camera);
+  if (faults.error_count() == errors_before) read_extended_frustum(json, value, faults, camera);
   if (faults.error_count() != errors_before) return std::nullopt;
   return camera;
 }
 
-std::optional<Light> read_light(const JsonDocument& json, const JsonValue& value, FaultList& faults) {
+std::optional<Light> read_light(const JsonDocument& json, const JsonValue& value, LightExtensions& extensions,
+                                FaultList& faults) {
   const std::size_t errors_before = faults.error_count();
   JsonObject object(json, value, faults);
   Light light;
@@ -101,6 +120,7 @@ std::optional<Light> read_light(const JsonDocument& json, const JsonValue& value
     light.attenuation = Attenuation::gltf_windowed;
   }
   if (*type == LightType::spot) read_spot(json, object, light, faults);
+  light = extensions.extend(value, std::move(light));
   if (faults.error_count() != errors_before) return std::nullopt;
   return light;
 }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/gltf_extension.h"
+#include "scene/instance_transforms.h"
 #include "scene/json_object.h"
 
 namespace laterna::gltf {
@@ -85,19 +86,15 @@ void report_cycles(const JsonDocument& json, const Hierarchy& tree, FaultList& f
 }
 
 std::vector<int> scene_roots(const JsonDocument& json, const Hierarchy& tree, FaultList& faults) {
-  JsonObject root(json, json.root(), faults);
-  const JsonValue* scenes = root.array("scenes");
-  const std::size_t scene_count = scenes == nullptr ? 0 : scenes->children.size();
-  const int chosen = root.index("scene", scene_count, "scenes");
-  if (scene_count == 0) {
+  const JsonValue* scene = default_scene(json, faults);
+  if (scene == nullptr) {
     std::vector<int> roots;
     for (std::size_t i = 0; i < tree.values.size(); ++i) {
       if (tree.parent[i] < 0) roots.push_back(static_cast<int>(i));
     }
     return roots;
   }
-  const JsonValue& scene = scenes->children[static_cast<std::size_t>(std::max(chosen, 0))];
-  JsonObject object(json, scene, faults);
+  JsonObject object(json, *scene, faults);
   const JsonValue* list = object.array("nodes");
   if (list == nullptr) return {};
   std::vector<int> roots = node_list(json, *list, tree.values.size(), faults);
@@ -113,13 +110,6 @@ std::vector<int> scene_roots(const JsonDocument& json, const Hierarchy& tree, Fa
     is_listed[node] = true;
   }
   return roots;
-}
-
-// A unit quaternion, or nothing when there is no rotation in it.
-std::optional<glm::dvec4> normalized_rotation(glm::dvec4 rotation) {
-  const double length = std::sqrt(glm::dot(rotation, rotation));
-  if (!(length > 1e-9) || !std::isfinite(length)) return std::nullopt;
-  return rotation / length;
 }
 
 std::optional<glm::dmat4> explicit_matrix(JsonObject& object) {
@@ -160,6 +150,14 @@ bool read_instance_attribute(const JsonDocument& json, JsonObject& attributes, s
 }
 
 }  // namespace
+
+const JsonValue* default_scene(const JsonDocument& json, FaultList& faults) {
+  JsonObject root(json, json.root(), faults);
+  const JsonValue* scenes = root.array("scenes");
+  const std::size_t count = scenes == nullptr ? 0 : scenes->children.size();
+  const int chosen = root.index("scene", count, "scenes");
+  return count == 0 ? nullptr : &scenes->children[static_cast<std::size_t>(std::max(chosen, 0))];
+}
 
 std::vector<PlacedNode> placed_nodes(const JsonDocument& json, FaultList& faults) {
   const std::size_t errors_before = faults.error_count();

@@ -18,6 +18,9 @@ struct PlacedNode {
   int parent = -1;  ///< into the same list, always before the node itself
 };
 
+/// scenes[] of `scene`, else the first; null where the file has none.
+const JsonValue* default_scene(const JsonDocument& json, FaultList& faults);
+
 /// The nodes below the default scene's roots (`scene`, else scene 0, else every root node), parents first.
 /// Faults: cycles, nodes with two parents, indices out of range. Works without recursion, however deep the
 /// tree.

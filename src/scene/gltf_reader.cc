@@ -19,6 +19,7 @@
 #include "scene/gltf_textures.h"
 #include "scene/json_document.h"
 #include "scene/json_object.h"
+#include "scene/scene_settings.h"
 #include "scene/unique_names.h"
 
 namespace laterna {
@@ -32,6 +33,7 @@ class SceneBuilder {
     Meshes& meshes;
     Accessors& accessors;
     Lamps& lamps;
+    LightExtensions& light_extensions;
     Skins& skins;
     const Animations& animations;
   };
@@ -40,10 +42,13 @@ class SceneBuilder {
         meshes_(readers.meshes),
         accessors_(readers.accessors),
         lamps_(readers.lamps),
+        light_extensions_(readers.light_extensions),
         skins_(readers.skins),
         animations_(readers.animations),
         faults_(faults) {
     JsonObject root(json, json.root(), faults);
+    FaultList told(faults.file());  // with the nodes
+    if (const JsonValue* scene = default_scene(json, told)) read_lighting(*scene);
     cameras_ = root.array("cameras");
     lights_ = find_lights(json, faults);
     const JsonValue* nodes = root.array("nodes");
@@ -61,6 +66,7 @@ class SceneBuilder {
     node.parent_from_node = place.parent_from_node;
     node.transform = place.transform;
     indices_.nodes[placed.json->index] = static_cast<int>(scene_.nodes.size());
+    read_flags(*placed.json, node);
     if (const int mesh = object.index("mesh", meshes_.count(), "meshes"); mesh >= 0) {
       wear_mesh(node, object, mesh, static_cast<int>(placed.json->index));
       node.node_from_instance =
@@ -80,7 +86,7 @@ class SceneBuilder {
       if (node.light >= 0) indices_.lights[static_cast<std::size_t>(light)].push_back(node.light);
     }
     scene_.nodes.push_back(std::move(node));
-    if (std::optional<Light> lamp = lamps_.read(*placed.json))
+    if (std::optional<Light> lamp = lamps_.read(*placed.json, light_extensions_))
       hang_lamp(std::move(*lamp), static_cast<int>(scene_.nodes.size()) - 1);
   }
 
@@ -124,6 +130,24 @@ class SceneBuilder {
       node.weights.push_back(static_cast<float>(weight));
   }
 
+  void read_lighting(const JsonValue& scene) {
+    const JsonValue* extension = find_extension(scene, kLightingExtension);
+    if (extension == nullptr) return;
+    JsonObject object(json_, *extension, faults_, kGltfNames);
+    for (const std::string_view allowed : {"extensions", "extras"}) object.any(allowed);
+    read_scene_settings(json_, object, faults_, scene_);
+    object.report_unknown_members("a scene");
+  }
+
+  void read_flags(const JsonValue& value, Node& node) {
+    const JsonValue* extension = find_extension(value, kLightingExtension);
+    if (extension == nullptr) return;
+    JsonObject object(json_, *extension, faults_, kGltfNames);
+    for (const std::string_view allowed : {"extensions", "extras"}) object.any(allowed);
+    read_node_flags(object).apply(node);
+    object.report_unknown_members("a node");
+  }
+
   // The thing's own name; where that is missing or belongs to another node already, the node's.
   static std::string name_for(const std::string& own, const std::string& node, const std::string& fallback,
                               UniqueNames& names) {
@@ -142,7 +166,7 @@ class SceneBuilder {
   }
 
   int add_light(const JsonValue& value, const std::string& node_name) {
-    std::optional<Light> light = read_light(json_, value, faults_);
+    std::optional<Light> light = read_light(json_, value, light_extensions_, faults_);
     if (!light) return -1;
     const std::size_t index = scene_.lights.size();
     light->name = name_for(light->name, node_name, fmt::format("light {}", index + 1), light_names_);
@@ -154,6 +178,7 @@ class SceneBuilder {
   Meshes& meshes_;
   Accessors& accessors_;
   Lamps& lamps_;
+  LightExtensions& light_extensions_;
   Skins& skins_;
   const Animations& animations_;
   FaultList& faults_;
@@ -184,9 +209,10 @@ Result<Scene> read_document(const JsonDocument& json, const Container& container
   Meshes meshes(json, buffers, accessors, materials, faults);
   const std::vector<PlacedNode> placed = placed_nodes(json, faults);
   Lamps lamps(json, buffers, folder, faults);
+  LightExtensions light_extensions(json, textures, folder, faults);
   Skins skins(json, accessors, faults);
   Animations animations(json, accessors, faults);
-  SceneBuilder builder(json, {meshes, accessors, lamps, skins, animations}, faults);
+  SceneBuilder builder(json, {meshes, accessors, lamps, light_extensions, skins, animations}, faults);
   for (const PlacedNode& node : placed) builder.add(node);
   if (faults.has_errors()) return failure(faults);
   Scene scene = builder.take();

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/elementary.h"
 #include "scene/gltf_extension.h"
 #include "scene/spelling.h"
+#include "scene/texture_transform.h"
 #include "scene/uri.h"
 
 namespace laterna::gltf {
@@ -118,16 +118,30 @@ Texture Textures::read(JsonObject& owner, std::string_view name, const std::stri
   return texture.is_set() ? texture : Texture{};
 }
 
+int Textures::read_picture(JsonObject& owner, std::string_view name) {
+  const JsonValue* value = owner.object(name);
+  if (value == nullptr) return -1;
+  if (value->find("index") == nullptr) return make_picture(*value, {});
+  JsonObject info(json_, *value, faults_);
+  for (const std::string_view elsewhere : {"uri", "bufferView"}) {
+    if (info.has(elsewhere))
+      info.error(elsewhere, "expected either the index of a texture or an image, not both");
+  }
+  const int index = info.index("index", textures_.size(), "textures");
+  if (index < 0) return -1;
+  const int image = textures_[static_cast<std::size_t>(index)].image;
+  if (image >= 0) return picture_of(image, json_.path(*value));
+  info.error("index", fmt::format("textures[{}] has no PNG or JPEG source", index));
+  return -1;
+}
+
 void Textures::apply_transform(const JsonValue& extension, Texture& texture, std::uint64_t& uv_set) {
   JsonObject object(json_, extension, faults_);
   const auto offset = object.numbers<2>("offset").value_or(std::array<double, 2>{0, 0});
   const auto scale = object.numbers<2>("scale").value_or(std::array<double, 2>{1, 1});
   const double rotation = object.number("rotation", {-kMaxRotation, kMaxRotation}).value_or(0);
   uv_set = object.whole("texCoord").value_or(uv_set);
-  // Counter-clockwise as seen with v pointing down, which is what the extension's implementations agree on.
-  const double c = cosine(rotation), s = sine(rotation);
-  const double rows[6] = {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
-  for (std::size_t i = 0; i < 6; ++i) texture.uv_from_mesh_uv[i] = static_cast<float>(rows[i]);
+  texture.uv_from_mesh_uv = composed({{offset[0], offset[1]}, rotation, {scale[0], scale[1]}});
 }
 
 int Textures::picture_of(int image, const std::string& used_by) {
@@ -168,11 +182,12 @@ int Textures::picture_from_view(JsonObject& image) {
 int Textures::picture_from_uri(JsonObject& image, const std::string& used_by) {
   const std::optional<std::string> uri = image.string("uri");
   if (!uri) return -1;
+  const std::string for_whom = used_by.empty() ? std::string() : "; used by " + used_by;
   Picture picture;
   if (!is_data_uri(*uri)) {
     auto path = resolve_file(folder_, *uri);
     if (!path) {
-      image.error("uri", fmt::format("{}; used by {}", path.error(), used_by));
+      image.error("uri", path.error() + for_whom);
       return -1;
     }
     picture.file = std::move(*path);
@@ -181,11 +196,11 @@ int Textures::picture_from_uri(JsonObject& image, const std::string& used_by) {
   }
   auto decoded = decode_data_uri(*uri);
   if (!decoded) {
-    image.error("uri", fmt::format("{}; used by {}", decoded.error(), used_by));
+    image.error("uri", decoded.error() + for_whom);
     return -1;
   }
   if (decoded->empty()) {
-    image.error("uri", fmt::format("the data URI is empty; used by {}", used_by));
+    image.error("uri", "the data URI is empty" + for_whom);
     return -1;
   }
   picture.name = fmt::format("{}: {}", faults_.file(), json_.path(image.value()));

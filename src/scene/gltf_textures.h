@@ -21,6 +21,14 @@ class Textures {
   /// is the material's name, for the message about a missing file.
   Texture read(JsonObject& owner, std::string_view name, const std::string& material);
 
+  /// The picture that a light's member `name` shows: a textureInfo; or an image of its own, of whatever format is read, by
+  /// `uri` or by `bufferView` and `mimeType`. −1 when absent or faulty.
+  int read_picture(JsonObject& owner, std::string_view name);
+
+  /// A picture that no image of the file holds.
+  int add(Picture picture) { return keep(std::move(picture)); }
+  [[nodiscard]] const Picture& at(int picture) const { return pictures_[static_cast<std::size_t>(picture)]; }
+
   /// The pictures in use, in the order of first use; Texture::picture counts into them.
   std::vector<Picture> take_pictures() { return std::move(pictures_); }
 

@@ -28,13 +28,18 @@ std::string NumberRange::expectation() const {
   return text;
 }
 
-JsonObject::JsonObject(const JsonDocument& json, const JsonValue& value, FaultList& faults)
-    : json_(json), value_(value), faults_(faults) {
+JsonObject::JsonObject(const JsonDocument& json, const JsonValue& value, FaultList& faults,
+                       const SettingNames& names)
+    : json_(json), value_(value), faults_(faults), names_(names) {
   if (!value.is_object()) error({}, fmt::format("expected an object, got {}", describe(value)));
 }
 
 std::string JsonObject::place(std::string_view member) const {
-  return member.empty() ? json_.place(value_) : json_.place(value_, member);
+  return member.empty() ? json_.place(value_) : json_.place(value_, names_.spelled(member));
+}
+
+std::string JsonObject::quoted(std::string_view name) const {
+  return fmt::format("\"{}\"", names_.spelled(name));
 }
 
 void JsonObject::error(std::string_view member, std::string message) {
@@ -46,8 +51,8 @@ void JsonObject::warning(std::string_view member, std::string message) {
 }
 
 const JsonValue* JsonObject::any(std::string_view name) {
-  asked_for_.push_back(name);
-  return value_.find(name);
+  asked_for_.push_back(names_.spelled(name));
+  return value_.find(asked_for_.back());
 }
 
 const JsonValue* JsonObject::find(std::string_view name, JsonValue::Kind kind, std::string_view expected) {
@@ -63,6 +68,20 @@ std::optional<double> JsonObject::number(std::string_view name, const NumberRang
   if (member->kind == JsonValue::Kind::number && range.holds(member->number)) return member->number;
   error(name, fmt::format("expected {}, got {}", range.expectation(), describe(*member)));
   return std::nullopt;
+}
+
+std::optional<Angle> JsonObject::angle(std::string_view name, const NumberRange& degrees) {
+  if (!names_.angles_are_in_radians()) {
+    const std::optional<double> value = number(name, degrees);
+    return value ? std::optional(Angle::degrees(*value)) : std::nullopt;
+  }
+  constexpr double kSinglePrecision = 1 + 1e-7;
+  NumberRange radians = degrees;
+  radians.low = Angle::degrees(degrees.low).in_radians();
+  radians.high = Angle::degrees(degrees.high).in_radians() * (degrees.open_high ? 1 : kSinglePrecision);
+  const std::optional<double> value = number(name, radians);
+  if (!value) return std::nullopt;
+  return std::min(Angle::radians(*value), Angle::degrees(degrees.high));
 }
 
 std::optional<bool> JsonObject::boolean(std::string_view name) {
@@ -130,7 +149,8 @@ int JsonObject::index(std::string_view name, std::size_t count, std::string_view
 }
 
 std::optional<std::size_t> JsonObject::read_choice(std::string_view name,
-                                                   const std::vector<std::string_view>& words) {
+                                                   std::vector<std::string_view> words) {
+  for (std::string_view& word : words) word = names_.spelled(word);
   const JsonValue* member = any(name);
   if (member == nullptr) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), member->text);
@@ -164,7 +184,7 @@ void JsonObject::report_unknown_members(std::string_view what) {
     }
     std::vector<std::string_view> unused;
     for (const std::string_view known : asked_for_) {
-      if (!has(known)) unused.push_back(known);
+      if (value_.find(known) == nullptr) unused.push_back(known);
     }
     faults_.error(json_.place(member), fmt::format("{} has no key {}{}", what, in_quotes(member.key),
                                                    did_you_mean(member.key, unused)));

@@ -14,8 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "laterna/view.h"
 #include "scene/fault_list.h"
 #include "scene/json_document.h"
+#include "scene/setting_names.h"
 
 namespace laterna {
 
@@ -37,15 +39,22 @@ inline constexpr NumberRange kZeroToOne{0, 1, false, false};
 
 class JsonObject {
  public:
-  /// Reports when `value` is not an object, and then behaves as an empty one.
-  JsonObject(const JsonDocument& json, const JsonValue& value, FaultList& faults);
+  /// Reports when `value` is not an object, and then behaves as an empty one. Members, and words among their values, are
+  /// looked for as `names` spells them.
+  JsonObject(const JsonDocument& json, const JsonValue& value, FaultList& faults,
+             const SettingNames& names = kRigNames);
 
   [[nodiscard]] const JsonValue& value() const { return value_; }
-  [[nodiscard]] bool has(std::string_view name) const { return value_.find(name) != nullptr; }
+  [[nodiscard]] const SettingNames& names() const { return names_; }
+  [[nodiscard]] bool has(std::string_view name) const { return value_.find(names_.spelled(name)) != nullptr; }
+  /// "name" as the file spells it, in quotes, for messages.
+  [[nodiscard]] std::string quoted(std::string_view name) const;
 
   /// Each reader returns nothing when the member is absent, and reports and returns nothing when it does not
   /// fit.
   std::optional<double> number(std::string_view name, const NumberRange& range = kAnyNumber);
+  /// `degrees` is what it may be; files with angles in radians may exceed it by what single precision rounds.
+  std::optional<Angle> angle(std::string_view name, const NumberRange& degrees);
   std::optional<bool> boolean(std::string_view name);
   std::optional<std::string> string(std::string_view name);
   const JsonValue* array(std::string_view name);
@@ -81,7 +90,7 @@ class JsonObject {
                                std::span<const std::pair<std::string_view, Choice>> choices) {
     std::vector<std::string_view> words;
     for (const auto& entry : choices) words.push_back(entry.first);
-    const std::optional<std::size_t> which = read_choice(name, words);
+    const std::optional<std::size_t> which = read_choice(name, std::move(words));
     if (!which) return std::nullopt;
     return choices[*which].second;
   }
@@ -103,12 +112,13 @@ class JsonObject {
  private:
   const JsonValue* find(std::string_view name, JsonValue::Kind kind, std::string_view expected);
   bool read_numbers(std::string_view name, const NumberRange& range, std::span<double> values);
-  std::optional<std::size_t> read_choice(std::string_view name, const std::vector<std::string_view>& words);
+  std::optional<std::size_t> read_choice(std::string_view name, std::vector<std::string_view> words);
   [[nodiscard]] std::string place(std::string_view member) const;
 
   const JsonDocument& json_;
   const JsonValue& value_;
   FaultList& faults_;
+  const SettingNames& names_;
   std::vector<std::string_view> asked_for_;
 };
 

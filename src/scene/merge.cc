@@ -144,11 +144,7 @@ void SceneMerger::apply(const std::vector<NodeOverride>& overrides, std::vector<
       continue;
     }
     for (std::size_t i = 0; i < merged_.nodes.size(); ++i) {
-      if (!is_chosen[i]) continue;
-      Node& node = merged_.nodes[i];
-      node.casts_shadow = change.casts_shadow.value_or(node.casts_shadow);
-      node.receives_shadow = change.receives_shadow.value_or(node.receives_shadow);
-      node.visible = change.visible.value_or(node.visible);
+      if (is_chosen[i]) change.flags.apply(merged_.nodes[i]);
     }
   }
 }

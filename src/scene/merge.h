@@ -9,6 +9,7 @@
 
 #include "laterna/scene.h"
 #include "scene/fault_list.h"
+#include "scene/scene_settings.h"
 #include "scene/surface_overrides.h"
 #include "scene/unique_names.h"
 
@@ -17,7 +18,7 @@ namespace laterna {
 /// A rig's change to the flags of the nodes of one name and of everything below them.
 struct NodeOverride {
   std::string name;
-  std::optional<bool> casts_shadow, receives_shadow, visible;
+  NodeFlags flags;
   std::string file, place;  ///< where it is written
 };
 

@@ -18,8 +18,8 @@ namespace {
 constexpr double kDefaultNear = 0.1;
 
 // What says how wide a frustum is; the last is for projectors alone.
-constexpr std::array<std::string_view, 6> kOpenings = {"yfov_deg",   "hfov_deg",     "focal_length_mm",
-                                                       "intrinsics", "orthographic", "throw_ratio"};
+constexpr std::array<std::string_view, 7> kOpenings = {
+    "yfov_deg", "hfov_deg", "focal_length_mm", "intrinsics", "orthographic", "frustum", "throw_ratio"};
 
 // Widths and heights of the picture: far beyond any lens.
 constexpr NumberRange kLensShift{-100, 100, false, false};
@@ -41,7 +41,7 @@ std::optional<Projection> from_intrinsics(const JsonDocument& json, const JsonVa
 
 std::optional<Projection> orthographic(const JsonDocument& json, const JsonValue& value, FaultList& faults,
                                        double aspect, double near, double far) {
-  JsonObject object(json, value, faults);
+  JsonObject object(json, value, faults);  // one word: spelled alike everywhere
   object.require("height");
   const std::optional<double> height = object.number("height", kPositive);
   object.report_unknown_members("orthographic");
@@ -52,6 +52,12 @@ std::optional<Projection> orthographic(const JsonDocument& json, const JsonValue
 // The vertical field of a frustum that is `hfov` wide.
 Angle vertical_field(Angle hfov, double aspect) {
   return Angle::radians(2 * arctangent(tangent(hfov.in_radians() / 2) / aspect));
+}
+
+std::vector<std::string_view> spelled(const JsonObject& object, std::span<const std::string_view> names) {
+  std::vector<std::string_view> words;
+  for (const std::string_view name : names) words.push_back(object.names().spelled(name));
+  return words;
 }
 
 // Whether one key, and only one, says how wide the frustum is.
@@ -65,9 +71,10 @@ bool has_one_opening(JsonObject& object, FrustumOf of) {
   }
   if (given.size() == 1) return true;
   if (given.empty()) {
-    object.error({}, fmt::format("needs one of \"{}\"", fmt::join(openings, "\", \"")));
+    object.error({}, fmt::format("needs one of \"{}\"", fmt::join(spelled(object, openings), "\", \"")));
   } else {
-    object.error(given[1], fmt::format("only one of \"{}\" may be given", fmt::join(given, "\" and \"")));
+    object.error(given[1], fmt::format("only one of \"{}\" may be given",
+                                       fmt::join(spelled(object, given), "\" and \"")));
   }
   return false;
 }
@@ -79,7 +86,7 @@ struct Sensor {
 };
 
 bool is_width_and_height(const JsonObject& object) {
-  const JsonValue* value = object.value().find("sensor_mm");
+  const JsonValue* value = object.value().find(object.names().spelled("sensor_mm"));
   return value != nullptr && value->is_array();
 }
 
@@ -106,20 +113,26 @@ namespace {
 class FrustumReader {
  public:
   FrustumReader(const JsonDocument& json, JsonObject& object, FaultList& faults, FrustumOf of,
-                std::optional<double> aspect_of_picture)
-      : json_(json), object_(object), faults_(faults), of_(of), aspect_of_picture_(aspect_of_picture) {}
+                std::optional<double> aspect_of_picture, std::optional<DepthRange> range)
+      : json_(json),
+        object_(object),
+        faults_(faults),
+        of_(of),
+        aspect_of_picture_(aspect_of_picture),
+        known_range_(range) {}
 
   std::optional<RigFrustum> read() {
     const std::size_t errors_before = faults_.error_count();
     read_range();
     aspect_ = object_.number("aspect", kPositive);
-    yfov_ = object_.number("yfov_deg", kFieldOfView);
-    hfov_ = object_.number("hfov_deg", kFieldOfView);
+    yfov_ = object_.angle("yfov_deg", kFieldOfView);
+    hfov_ = object_.angle("hfov_deg", kFieldOfView);
     focal_length_ = object_.number("focal_length_mm", kPositive);
     sensor_ = read_sensor(object_);
     if (of_ == FrustumOf::projector) throw_ratio_ = object_.number("throw_ratio", kPositive);
     intrinsics_ = object_.object("intrinsics");
     orthographic_ = object_.object("orthographic");
+    sides_ = object_.object("frustum");
     shift_ = object_.numbers<2>("lens_shift", kLensShift);
     check_together();
     if (!has_one_opening(object_, of_) || faults_.error_count() != errors_before) return std::nullopt;
@@ -131,31 +144,44 @@ class FrustumReader {
       object_.error({}, std::move(fault));
       return std::nullopt;
     }
-    return RigFrustum{*projection, aspect_ || intrinsics_ != nullptr || (sensor_ && sensor_->height)};
+    return RigFrustum{*projection,
+                      aspect_ || intrinsics_ != nullptr || sides_ != nullptr || (sensor_ && sensor_->height)};
   }
 
  private:
   void read_range() {
-    const bool is_orthographic = object_.has("orthographic");
-    near_ = object_.number("near", is_orthographic ? kAnyNumber : kPositive)
-                .value_or(is_orthographic ? 0 : kDefaultNear);
-    far_ = object_.number("far").value_or(std::numeric_limits<double>::infinity());
-    if (far_ <= near_) object_.error("far", fmt::format("must be beyond near ({}), got {}", near_, far_));
+    const JsonValue* sides = object_.value().find("frustum");
+    const JsonValue* is_parallel = sides == nullptr ? nullptr : sides->find("parallel");
+    const bool is_orthographic =
+        object_.has("orthographic") || (is_parallel != nullptr && is_parallel->boolean);
+    const DepthRange range = known_range_.value_or(
+        DepthRange{is_orthographic ? 0 : kDefaultNear, std::numeric_limits<double>::infinity()});
+    near_ = object_.number("near", is_orthographic ? kAnyNumber : kPositive).value_or(range.near);
+    far_ = object_.number("far").value_or(range.far);
+    if (far_ <= near_) {
+      object_.error(
+          "far", fmt::format("must be beyond {} ({}), got {}", object_.names().spelled("near"), near_, far_));
+    }
   }
 
   // Keys that need or exclude each other.
   void check_together() {
     if (object_.has("focal_length_mm") && !object_.has("sensor_mm"))
-      object_.error("focal_length_mm", "needs \"sensor_mm\" beside it: width, or [width, height]");
+      object_.error("focal_length_mm", fmt::format("needs {} beside it: width, or [width, height]",
+                                                   object_.quoted("sensor_mm")));
     if (object_.has("sensor_mm") && !object_.has("focal_length_mm"))
-      object_.error("sensor_mm", "needs \"focal_length_mm\" beside it");
+      object_.error("sensor_mm", fmt::format("needs {} beside it", object_.quoted("focal_length_mm")));
     if (object_.has("aspect") && is_width_and_height(object_))
       object_.error("aspect", "follows from the sensor's width and height");
     if (shift_ && intrinsics_ != nullptr)
       object_.error("lens_shift", "follows from the intrinsics' cx and cy");
+    for (const std::string_view name : {"aspect", "lens_shift"}) {
+      if (sides_ != nullptr && object_.has(name))
+        object_.error(name, "follows from the sides of the frustum");
+    }
     for (const std::string_view name : {"hfov_deg", "focal_length_mm"}) {
       if (of_ == FrustumOf::camera && object_.has(name) && needs_aspect_of_picture(object_))
-        object_.error(name, "needs \"aspect\" (width / height) beside it");
+        object_.error(name, fmt::format("needs {} (width / height) beside it", object_.quoted("aspect")));
     }
   }
 
@@ -169,14 +195,18 @@ class FrustumReader {
       if (std::isinf(far_)) object_.error("far", "is missing: an orthographic view ends somewhere");
       return orthographic(json_, *orthographic_, faults_, shape, near_, far_);
     }
-    if (hfov_)
-      return Projection::perspective(vertical_field(Angle::degrees(*hfov_), shape), shape, near_, far_);
+    if (sides_ != nullptr) {
+      Projection projection = Projection::perspective(Angle::degrees(1), 1, near_, far_);
+      read_sides(json_, *sides_, faults_, projection);
+      return projection;
+    }
+    if (hfov_) return Projection::perspective(vertical_field(*hfov_, shape), shape, near_, far_);
     if (throw_ratio_) return Projection::from_throw_ratio(*throw_ratio_, shape, near_, far_);
     if (focal_length_) {
       const double height = sensor_->height.value_or(sensor_->width / shape);
       return Projection::from_focal_length(*focal_length_, sensor_->width, height, near_, far_);
     }
-    return Projection::perspective(Angle::degrees(yfov_.value_or(1)), shape, near_, far_);
+    return Projection::perspective(yfov_.value_or(Angle::degrees(1)), shape, near_, far_);
   }
 
   const JsonDocument& json_;
@@ -184,19 +214,34 @@ class FrustumReader {
   FaultList& faults_;
   FrustumOf of_;
   std::optional<double> aspect_of_picture_;
+  std::optional<DepthRange> known_range_;
   double near_ = kDefaultNear, far_ = std::numeric_limits<double>::infinity();
-  std::optional<double> aspect_, yfov_, hfov_, focal_length_, throw_ratio_;
+  std::optional<double> aspect_, focal_length_, throw_ratio_;
+  std::optional<Angle> yfov_, hfov_;
   std::optional<Sensor> sensor_;
   std::optional<std::array<double, 2>> shift_;
   const JsonValue* intrinsics_ = nullptr;
   const JsonValue* orthographic_ = nullptr;
+  const JsonValue* sides_ = nullptr;
 };
 
 }  // namespace
 
+void read_sides(const JsonDocument& json, const JsonValue& value, FaultList& faults, Projection& projection) {
+  JsonObject object(json, value, faults);
+  object.require_all({"left", "right", "bottom", "top"});
+  projection.left = object.number("left").value_or(projection.left);
+  projection.right = object.number("right").value_or(projection.right);
+  projection.bottom = object.number("bottom").value_or(projection.bottom);
+  projection.top = object.number("top").value_or(projection.top);
+  projection.is_orthographic = object.boolean("parallel").value_or(projection.is_orthographic);
+  object.report_unknown_members("a frustum");
+}
+
 std::optional<RigFrustum> read_frustum(const JsonDocument& json, JsonObject& object, FaultList& faults,
-                                       FrustumOf of, std::optional<double> aspect_of_picture) {
-  return FrustumReader(json, object, faults, of, aspect_of_picture).read();
+                                       FrustumOf of, std::optional<double> aspect_of_picture,
+                                       std::optional<DepthRange> range) {
+  return FrustumReader(json, object, faults, of, aspect_of_picture, range).read();
 }
 
 }  // namespace laterna

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/elementary.h"
 #include "image/numbered_files.h"
 #include "laterna/blend.h"
@@ -14,9 +16,6 @@
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
 #include "scene/rig_shadows.h"
-#include "scene/rig_surfaces.h"
-#include "scene/spelling.h"
-#include "scene/uri.h"
 
 namespace laterna {
 namespace {
@@ -35,14 +34,22 @@ std::string_view name_of(LightType type) {
   return "projector";
 }
 
+// Reads one light, from a rig or from an extension of glTF: the settings are the same, and their limits. `light` holds what is
+// known of it before.
 class LightReader {
  public:
-  LightReader(const JsonDocument& json, const JsonValue& value, const std::filesystem::path& folder,
-              std::vector<Picture>& pictures, FaultList& faults)
-      : json_(json), object_(json, value, faults), folder_(folder), pictures_(pictures), faults_(faults) {}
+  LightReader(const JsonDocument& json, const JsonValue& value, const SettingNames& names, LightFiles& files,
+              FaultList& faults, Light light)
+      : json_(json),
+        object_(json, value, faults, names),
+        files_(files),
+        faults_(faults),
+        light_(std::move(light)) {}
 
+  // All that a rig says.
   std::optional<RigLight> read() {
     const std::size_t errors_before = faults_.error_count();
+    is_lamp_ = object_.has("ies");
     object_.require("type");
     const auto type = object_.choice<LightType>("type", {{"directional", LightType::directional},
                                                          {"point", LightType::point},
@@ -50,8 +57,35 @@ class LightReader {
                                                          {"projector", LightType::projector}});
     if (!type) return std::nullopt;
     light_.type = *type;
-    read_common();
-    switch (*type) {
+    light_.name = object_.string("name").value_or("");
+    if (object_.has("name") && light_.name.empty()) object_.error("name", "is empty");
+    read_lamp();
+    read_place();
+    reject_wrong_units();
+    object_.any("path");  // read when the light has its node (rig_path.h)
+    read_settings();
+    if (faults_.error_count() != errors_before) return std::nullopt;
+    return RigLight{std::move(light_), world_from_light_};
+  }
+
+  // All that glTF leaves to say of a light whose type, place, name and lamp are known.
+  Light read_extension() {
+    is_lamp_ = light_.distribution != nullptr;
+    for (const std::string_view allowed : {"extensions", "extras"}) object_.any(allowed);
+    // Of lamps, glTF has one kind; with a cone it is a spot.
+    if (is_lamp_ && (object_.has("inner_cone_deg") || object_.has("outer_cone_deg")))
+      light_.type = LightType::spot;
+    read_settings();
+    return std::move(light_);
+  }
+
+ private:
+  void read_settings() {
+    light_.enabled = object_.boolean("enabled").value_or(true);
+    read_color();
+    read_brightness();
+    read_source();
+    switch (light_.type) {
       case LightType::directional:
         read_directional();
         break;
@@ -67,22 +101,7 @@ class LightReader {
     }
     // What a light can have depends on all of the above.
     read_rig_shadow(json_, object_, faults_, light_);
-    object_.any("path");  // read when the light has its node (rig_path.h)
-    object_.report_unknown_members(fmt::format("a {}", name_of(*type)));
-    if (faults_.error_count() != errors_before) return std::nullopt;
-    return RigLight{std::move(light_), world_from_light_};
-  }
-
- private:
-  void read_common() {
-    light_.name = object_.string("name").value_or("");
-    if (object_.has("name") && light_.name.empty()) object_.error("name", "is empty");
-    light_.enabled = object_.boolean("enabled").value_or(true);
-    read_color();
-    read_lamp();
-    read_place();
-    read_brightness();
-    read_source();
+    object_.report_unknown_members(fmt::format("a {}", name_of(light_.type)));
   }
 
   // Of the lamp, and of what is put before it.
@@ -93,8 +112,7 @@ class LightReader {
     constexpr NumberRange kTemperature{kLeastKelvin, kMostKelvin, false, false};
     if (const auto kelvin = object_.number("color_temperature", kTemperature)) {
       light_.color = color_of_temperature(*kelvin);
-      if (object_.has("color"))
-        object_.error("color_temperature", "give either color or color_temperature, not both");
+      if (object_.has("color")) object_.error("color_temperature", give_either("color", "color_temperature"));
     }
     if (const auto filter = object_.numbers<3>("filter", kZeroToOne)) {
       light_.color *= glm::vec3((*filter)[0], (*filter)[1], (*filter)[2]);
@@ -106,6 +124,12 @@ class LightReader {
       light_.color *= transmission(**gel);
   }
 
+  // Of two settings that exclude each other.
+  [[nodiscard]] std::string give_either(std::string_view one, std::string_view other) const {
+    const SettingNames& names = object_.names();
+    return fmt::format("give either {} or {}, not both", names.spelled(one), names.spelled(other));
+  }
+
   // A measured lamp says itself how bright it is and where it shines.
   void read_lamp() {
     const std::optional<std::string> name = object_.string("ies");
@@ -114,7 +138,7 @@ class LightReader {
       return object_.error(
           "ies", fmt::format("only point and spot lights have one, not a {}", name_of(light_.type)));
     if (!name) return;
-    const auto path = resolve_typed_file(folder_, *name);
+    const auto path = files_.find(*name);
     if (!path) return object_.error("ies", path.error());
     Result<LightDistribution> lamp = read_lamp_file(*path);
     if (!lamp) return object_.error("ies", to_string(lamp.error()));
@@ -122,11 +146,10 @@ class LightReader {
   }
 
   void read_place() {
-    const bool is_lamp = object_.has("ies");
-    if (light_.type == LightType::point && !(is_lamp && object_.has("target"))) {
+    if (light_.type == LightType::point && !(is_lamp_ && object_.has("target"))) {
       object_.require("position");
       // A lamp hangs, if nothing else is said.
-      if (is_lamp) world_from_light_ = downward();
+      if (is_lamp_) world_from_light_ = downward();
       const auto position = object_.numbers<3>("position", kCoordinate);
       if (position) world_from_light_[3] = glm::dvec4((*position)[0], (*position)[1], (*position)[2], 1);
     } else if (const std::optional<glm::dmat4> pose = read_pose(object_)) {
@@ -145,29 +168,34 @@ class LightReader {
   static glm::dmat4 downward() { return {{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}; }
 
   // Each type has its units; the others are named as what they are, not as unknown keys.
-  void read_brightness() {
-    const bool is_sun = light_.type == LightType::directional, is_lamp = object_.has("ies");
-    const std::string_view right = is_sun    ? "\"lux\""
-                                   : is_lamp ? "its file, \"lumens\" or \"scale\""
-                                             : "\"candela\" or \"lumens\"";
+  void reject_wrong_units() {
+    const bool is_sun = light_.type == LightType::directional;
+    const std::string_view right = is_sun     ? "\"lux\""
+                                   : is_lamp_ ? "its file, \"lumens\" or \"scale\""
+                                              : "\"candela\" or \"lumens\"";
     for (const std::string_view name :
          {"lux", "candela", "lumens", "scale", "intensity", "luminance", "power", "watts"}) {
       const bool is_right = name == "lux"       ? is_sun
-                            : name == "candela" ? !is_sun && !is_lamp
-                            : name == "scale"   ? is_lamp
+                            : name == "candela" ? !is_sun && !is_lamp_
+                            : name == "scale"   ? is_lamp_
                                                 : name == "lumens" && !is_sun;
       if (is_right || !object_.has(name)) continue;
       object_.any(name);
       object_.error(name,
                     fmt::format("the brightness of a {} is given in {}",
-                                is_lamp ? std::string_view("measured lamp") : name_of(light_.type), right));
+                                is_lamp_ ? std::string_view("measured lamp") : name_of(light_.type), right));
     }
-    const std::string_view key = is_sun ? "lux" : is_lamp ? "scale" : "candela";
-    light_.intensity = object_.number(key, kAmountOfLight).value_or(1);
+  }
+
+  void read_brightness() {
+    const bool is_sun = light_.type == LightType::directional;
+    const std::string_view key = is_sun ? "lux" : is_lamp_ ? "scale" : "candela";
+    light_.intensity = object_.number(key, kAmountOfLight).value_or(light_.intensity);
     if (is_sun) return;
     light_.lumens = object_.number("lumens", kAmountOfLight);
-    if (light_.lumens && object_.has(key))
-      object_.error("lumens", fmt::format("give either {} or lumens, not both", key));
+    if (!light_.lumens) return;
+    if (object_.has(key)) object_.error("lumens", give_either(key, "lumens"));
+    light_.intensity = 1;
   }
 
   void read_source() {
@@ -175,12 +203,13 @@ class LightReader {
     const bool is_sun = light_.type == LightType::directional;
     if (is_sun) {
       constexpr NumberRange kSkyAngle{0, 90, false, false};
-      if (const auto degrees = object_.number("angular_diameter_deg", kSkyAngle))
-        source.angular_diameter = Angle::degrees(*degrees);
+      source.angular_diameter =
+          object_.angle("angular_diameter_deg", kSkyAngle).value_or(source.angular_diameter);
     }
     for (const std::string_view name : {"radius", "size"}) {
       if (is_sun && object_.any(name) != nullptr) {
-        object_.error(name, "a directional light is far away: give its \"angular_diameter_deg\"");
+        object_.error(name, fmt::format("a directional light is far away: give its {}",
+                                        object_.quoted("angular_diameter_deg")));
       }
     }
     if (is_sun) return;
@@ -188,7 +217,7 @@ class LightReader {
     if (const auto size = object_.numbers<2>("size", kLength)) {
       source.width = (*size)[0];
       source.height = (*size)[1];
-      if (object_.has("radius")) object_.error("size", "give either radius or size, not both");
+      if (object_.has("radius")) object_.error("size", give_either("radius", "size"));
     }
   }
 
@@ -199,12 +228,11 @@ class LightReader {
                                                     {"linear", Attenuation::linear},
                                                     {"inverse_square", Attenuation::inverse_square},
                                                     {"gltf_windowed", Attenuation::gltf_windowed}});
-    light_.attenuation =
-        attenuation.value_or(range ? Attenuation::gltf_windowed : Attenuation::inverse_square);
+    light_.attenuation = attenuation.value_or(range ? Attenuation::gltf_windowed : light_.attenuation);
     light_.range = range.value_or(light_.range);
     const bool uses_range =
         light_.attenuation == Attenuation::linear || light_.attenuation == Attenuation::gltf_windowed;
-    if (uses_range && !object_.has("range")) {
+    if (uses_range && std::isinf(light_.range) && !object_.has("range")) {
       object_.error("attenuation", "needs \"range\" beside it");
     } else if (!uses_range && range && attenuation) {
       object_.error("range", "has no effect with this attenuation: leave one of them out");
@@ -213,16 +241,23 @@ class LightReader {
 
   void read_directional() {
     bool has_box = false;
-    for (const std::string_view name : {"half_width", "half_height", "near", "far"})
+    for (const std::string_view name : {"half_width", "half_height", "near", "far", "frustum"})
       has_box |= object_.has(name);
     const double half_width = object_.number("half_width", kPositive).value_or(1);
     const double half_height = object_.number("half_height", kPositive).value_or(1);
     const double near = object_.number("near").value_or(0);
     const double far = object_.number("far").value_or(near + 1);
+    const JsonValue* sides = object_.object("frustum");
     if (!has_box) return;
-    object_.require_all({"half_width", "half_height", "far"});
-    if (far <= near) object_.error("far", fmt::format("must be beyond near ({}), got {}", near, far));
+    sides != nullptr ? object_.require("far") : object_.require_all({"half_width", "half_height", "far"});
+    for (const std::string_view name : {"half_width", "half_height"}) {
+      if (sides != nullptr && object_.has(name)) object_.error("frustum", give_either("frustum", name));
+    }
+    if (far <= near)
+      object_.error(
+          "far", fmt::format("must be beyond {} ({}), got {}", object_.names().spelled("near"), near, far));
     light_.projection = Projection::orthographic(half_width, half_height, near, far);
+    if (sides != nullptr) read_sides(json_, *sides, faults_, light_.projection);
     light_.fit = false;
   }
 
@@ -230,14 +265,17 @@ class LightReader {
     read_attenuation();
     if (light_.distribution != nullptr && !object_.has("inner_cone_deg") && !object_.has("outer_cone_deg"))
       return widen_to_lamp();
-    const double inner = object_.number("inner_cone_deg", kHalfAngle).value_or(0);
-    const double outer = object_.number("outer_cone_deg", kHalfAngle).value_or(45);
-    if (inner > outer) {
+    light_.inner_cone = object_.angle("inner_cone_deg", kHalfAngle).value_or(light_.inner_cone);
+    light_.outer_cone = object_.angle("outer_cone_deg", kHalfAngle).value_or(light_.outer_cone);
+    if (light_.inner_cone > light_.outer_cone) {
       object_.error(object_.has("inner_cone_deg") ? "inner_cone_deg" : "outer_cone_deg",
-                    fmt::format("the inner cone ({}) must not exceed the outer cone ({})", inner, outer));
+                    fmt::format("the inner cone ({:.6g}) must not exceed the outer cone ({:.6g})",
+                                as_given(light_.inner_cone), as_given(light_.outer_cone)));
     }
-    light_.inner_cone = Angle::degrees(inner);
-    light_.outer_cone = Angle::degrees(outer);
+  }
+
+  [[nodiscard]] double as_given(Angle angle) const {
+    return object_.names().angles_are_in_radians() ? angle.in_radians() : angle.in_degrees();
   }
 
   // Without a cone of its own a spot shines as far as its lamp does. Beyond a right angle no cone reaches: then it is a
@@ -257,7 +295,7 @@ class LightReader {
   void read_projector() {
     read_attenuation();
     if (object_.has("slide") && object_.has("intensity_map")) {
-      object_.error("intensity_map", "give either slide or intensity_map, not both");
+      object_.error("intensity_map", give_either("slide", "intensity_map"));
     }
     light_.slide_is_intensity = object_.has("intensity_map");
     light_.slide =
@@ -268,7 +306,8 @@ class LightReader {
                                                           {"uniform_candela", BeamProfile::uniform_candela}})
                          .value_or(light_.profile);
     if (light_.slide_is_intensity && object_.has("profile"))
-      object_.error("profile", "has no effect: an intensity_map says itself how the beam spreads");
+      object_.error("profile", fmt::format("has no effect: an {} says itself how the beam spreads",
+                                           object_.names().spelled("intensity_map")));
     light_.outside = object_
                          .choice<Outside>("outside", {{"black", Outside::black},
                                                       {"clamp", Outside::clamp},
@@ -279,10 +318,11 @@ class LightReader {
     read_blend();
     read_aperture();
     object_.any("distortion");
+    const std::optional<bool> from_slide = object_.boolean("aspect_from_slide");
     const std::optional<double> slide_aspect = aspect_for_lens();
     if (const auto frustum = read_frustum(json_, object_, faults_, FrustumOf::projector, slide_aspect)) {
       light_.projection = frustum->projection;
-      light_.aspect_from_slide = !frustum->aspect_is_given && !slide_aspect;
+      light_.aspect_from_slide = from_slide.value_or(!frustum->aspect_is_given && !slide_aspect);
       read_rig_distortion(json_, object_, faults_, light_);
     }
   }
@@ -316,37 +356,38 @@ class LightReader {
     const NumberRange in_focus{kNearestFocus, kMaxCoordinate, false, false};
     if (const auto focus = object_.number("focus", in_focus)) aperture.focal_distance = *focus;
     if (object_.has("focus") && !object_.has("aperture_radius"))
-      object_.error("focus", "needs \"aperture_radius\" beside it: through a pinhole all is in focus");
+      object_.error("focus", fmt::format("needs {} beside it: through a pinhole all is in focus",
+                                         object_.quoted("aperture_radius")));
     if (!(aperture.radius > 0)) return;
     if (object_.has("orthographic"))
       object_.error("aperture_radius", "a parallel projector has no lens to open");
     for (const std::string_view name : {"radius", "size"}) {
       if (object_.has(name))
-        object_.error(name, "the light shines from its lens: give either this or aperture_radius");
+        object_.error(name, fmt::format("the light shines from its lens: give either this or {}",
+                                        object_.names().spelled("aperture_radius")));
     }
   }
 
   int read_slide(std::string_view key) {
     object_.any("slide");
     object_.any("intensity_map");
-    return add_rig_picture(object_, key, folder_, pictures_);
+    return object_.has(key) ? files_.read_picture(object_, key) : -1;
   }
 
   int read_film() {
     for (const std::string_view other : {"slide", "intensity_map"}) {
-      if (object_.any(other) != nullptr)
-        object_.error("film", fmt::format("give either film or {}, not both", other));
+      if (object_.any(other) != nullptr) object_.error("film", give_either("film", other));
     }
     const FilmTiming timing = read_film_timing();
     const std::optional<std::string> name = object_.string("film");
     if (!name) return -1;
     Picture picture;
     picture.film = timing;
-    auto path = resolve_typed_file(folder_, *name);
+    const auto path = files_.find(*name);
     if (path) {
-      picture.file = std::move(*path);
-    } else if (is_numbered(*name)) {
-      picture.file = folder_ / *name;
+      picture.file = *path;
+    } else if (const auto pattern = files_.pattern(*name); pattern && is_numbered(*pattern)) {
+      picture.file = *pattern;
       if (const auto numbered = image::find_numbered_files(picture.file); !numbered) {
         object_.error("film", to_string(numbered.error()));
         return -1;
@@ -355,12 +396,14 @@ class LightReader {
       object_.error("film", path.error());
       return -1;
     }
-    if (path && object_.has("fps"))
-      object_.error(
-          "fps", "has no effect: this file says itself how long its frames last; \"rate\" makes it faster");
+    if (path && object_.has("fps")) {
+      object_.error("fps",
+                    fmt::format("has no effect: this file says itself how long its frames last; {} makes it "
+                                "faster",
+                                object_.quoted("rate")));
+    }
     picture.name = picture.file.string();
-    pictures_.push_back(std::move(picture));
-    return static_cast<int>(pictures_.size()) - 1;
+    return files_.add(std::move(picture));
   }
 
   FilmTiming read_film_timing() {
@@ -390,17 +433,19 @@ class LightReader {
   // A horizontal field of view leaves the vertical one to the slide's shape, and a lens distorts a frame of some
   // shape, so the slide's header is read now. Elsewhere the renderer fits the width when it has decoded the slide.
   std::optional<double> aspect_for_lens() {
-    const bool distorts = object_.has("distortion") && !object_.has("aspect") && !object_.has("intrinsics");
+    const bool distorts = object_.has("distortion") && !object_.has("aspect") && !object_.has("intrinsics") &&
+                          !object_.has("frustum");
     if (!distorts && !needs_aspect_of_picture(object_)) return std::nullopt;
     if (light_.slide < 0) return 1;
-    const Picture& picture = pictures_.back();
+    const Picture& picture = files_.at(light_.slide);
     if (picture.film) {
       const Result<FilmHeader> film = read_film_header(picture.file, picture.film->frames_per_second);
       if (film) return static_cast<double>(film->width) / film->height;
       object_.error("film", to_string(film.error()));
       return 1;
     }
-    const Result<ImageHeader> header = read_image_header(picture.file);
+    const Result<ImageHeader> header = picture.file.empty() ? read_image_header(picture.encoded, picture.name)
+                                                            : read_image_header(picture.file);
     if (header) return static_cast<double>(header->width) / header->height;
     object_.error(light_.slide_is_intensity ? "intensity_map" : "slide", to_string(header.error()));
     return 1;
@@ -408,19 +453,23 @@ class LightReader {
 
   const JsonDocument& json_;
   JsonObject object_;
-  const std::filesystem::path& folder_;
-  std::vector<Picture>& pictures_;
+  LightFiles& files_;
   FaultList& faults_;
   Light light_;
+  bool is_lamp_ = false;
   glm::dmat4 world_from_light_{1.0};
 };
 
 }  // namespace
 
-std::optional<RigLight> read_rig_light(const JsonDocument& json, const JsonValue& value,
-                                       const std::filesystem::path& folder, std::vector<Picture>& pictures,
+std::optional<RigLight> read_rig_light(const JsonDocument& json, const JsonValue& value, LightFiles& files,
                                        FaultList& faults) {
-  return LightReader(json, value, folder, pictures, faults).read();
+  return LightReader(json, value, kRigNames, files, faults, {}).read();
+}
+
+Light read_light_extension(const JsonDocument& json, const JsonValue& value, LightFiles& files,
+                           FaultList& faults, Light light) {
+  return LightReader(json, value, kGltfNames, files, faults, std::move(light)).read_extension();
 }
 
 }  // namespace laterna

@@ -9,23 +9,52 @@
 #include "scene/rig_lights.h"
 #include "scene/rig_path.h"
 #include "scene/rig_pose.h"
-#include "scene/rig_ranges.h"
 #include "scene/rig_surfaces.h"
 #include "scene/rig_terrain.h"
+#include "scene/scene_settings.h"
 #include "scene/spelling.h"
 #include "scene/unique_names.h"
+#include "scene/uri.h"
 
 namespace laterna {
 namespace {
 
+// A rig is its user's own text: it names any file.
+class RigFiles final : public LightFiles {
+ public:
+  RigFiles(const std::filesystem::path& folder, std::vector<Picture>& pictures)
+      : folder_(folder), pictures_(pictures) {}
+
+  tl::expected<std::filesystem::path, std::string> find(std::string_view name) override {
+    return resolve_typed_file(folder_, name);
+  }
+  std::optional<std::filesystem::path> pattern(std::string_view name) override { return folder_ / name; }
+
+  int read_picture(JsonObject& light, std::string_view key) override {
+    return add_rig_picture(light, key, folder_, pictures_);
+  }
+
+  int add(Picture picture) override {
+    pictures_.push_back(std::move(picture));
+    return static_cast<int>(pictures_.size()) - 1;
+  }
+  [[nodiscard]] const Picture& at(int picture) const override {
+    return pictures_[static_cast<std::size_t>(picture)];
+  }
+
+ private:
+  const std::filesystem::path& folder_;
+  std::vector<Picture>& pictures_;
+};
+
 class RigReader {
  public:
   RigReader(const JsonDocument& json, const std::filesystem::path& folder, FaultList& faults)
-      : json_(json), folder_(folder), faults_(faults) {}
+      : json_(json), folder_(folder), faults_(faults), files_(folder_, rig_.scene.pictures) {}
 
   Rig read() {
     JsonObject root(json_, json_.root(), faults_);
-    read_settings(root);
+    read_scene_settings(json_, root, faults_, rig_.scene);
     if (const JsonValue* cameras = root.array("cameras")) {
       for (const JsonValue& value : cameras->children) read_camera(value);
     }
@@ -54,27 +83,6 @@ class RigReader {
   }
 
  private:
-  void read_settings(JsonObject& root) {
-    Scene& scene = rig_.scene;
-    if (const auto ambient = root.numbers<3>("ambient", kAmountOfLight)) {
-      scene.ambient = glm::vec3((*ambient)[0], (*ambient)[1], (*ambient)[2]);
-      scene.ambient_is_set = true;
-    }
-    if (const auto background = root.numbers<3>("background", kAmountOfLight)) {
-      scene.background = glm::vec3((*background)[0], (*background)[1], (*background)[2]);
-    }
-    if (const JsonValue* value = root.object("shading")) {
-      JsonObject shading(json_, *value, faults_);
-      PhongHighlight highlight;
-      highlight.specular =
-          static_cast<float>(shading.number("specular", kAmountOfLight).value_or(highlight.specular));
-      highlight.shininess =
-          static_cast<float>(shading.number("shininess", kPositive).value_or(highlight.shininess));
-      shading.report_unknown_members("shading");
-      scene.phong = highlight;
-    }
-  }
-
   void read_camera(const JsonValue& value) {
     const std::size_t errors_before = faults_.error_count();
     JsonObject object(json_, value, faults_);
@@ -101,7 +109,7 @@ class RigReader {
   }
 
   void read_light(const JsonValue& value) {
-    std::optional<RigLight> read = read_rig_light(json_, value, folder_, rig_.scene.pictures, faults_);
+    std::optional<RigLight> read = read_rig_light(json_, value, files_, faults_);
     if (!read) return;
     JsonObject object(json_, value, faults_);
     claim_name(object, read->light.name, light_names_);
@@ -141,9 +149,7 @@ class RigReader {
     object.require("name");
     change.name = object.string("name").value_or("");
     if (object.has("name") && change.name.empty()) object.error("name", "is empty");
-    change.casts_shadow = object.boolean("casts_shadow");
-    change.receives_shadow = object.boolean("receives_shadow");
-    change.visible = object.boolean("visible");
+    change.flags = read_node_flags(object);
     object.report_unknown_members("a node");
     change.file = faults_.file();
     change.place = json_.place(value, "name");
@@ -194,6 +200,7 @@ class RigReader {
   UniqueNames camera_names_, light_names_;
   std::vector<int> path_nodes_;  // of each clip
   Rig rig_;
+  RigFiles files_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "scene/rig_ranges.h"
@@ -33,9 +34,9 @@ void read_filter(JsonObject& shadow, ShadowSettings& settings) {
     settings.kernel = static_cast<int>(*kernel);
     if (settings.filter != ShadowFilter::percentage_closer &&
         settings.filter != ShadowFilter::averaged_depths) {
-      shadow.error(
-          "kernel",
-          "has an effect only with \"filter\": \"percentage_closer\" or \"averaged_depths\" beside it");
+      shadow.error("kernel",
+                   fmt::format("has an effect only with \"filter\": {} or {} beside it",
+                               shadow.quoted("percentage_closer"), shadow.quoted("averaged_depths")));
     }
   }
 }
@@ -91,7 +92,10 @@ void read_plane(const JsonDocument& json, const JsonValue& value, FaultList& fau
   const auto distance = object.number("distance", kCoordinate);
   if (object.has("point") == object.has("distance"))
     object.error("", "expected exactly one of \"point\" and \"distance\" beside \"normal\"");
-  plane.normal = glm::normalize(plane.normal);
+  // What is a unit vector already, to rounding, is kept: so a plane that has been written down is the same when read.
+  constexpr double kRounding = 1e-15;
+  if (std::abs(glm::dot(plane.normal, plane.normal) - 1) > kRounding)
+    plane.normal = glm::normalize(plane.normal);
   if (point) plane.distance = glm::dot(plane.normal, glm::dvec3((*point)[0], (*point)[1], (*point)[2]));
   if (distance) plane.distance = *distance;
   object.report_unknown_members("a plane");
@@ -169,7 +173,7 @@ void read_rig_shadow(const JsonDocument& json, JsonObject& object, FaultList& fa
     object.error("shadow", fmt::format("expected true, false or an object, got {}", describe(*value)));
     return;
   }
-  JsonObject shadow(json, *value, faults);
+  JsonObject shadow(json, *value, faults, object.names());
   read_technique(shadow, light);
   read_map(shadow, light.shadow);
   read_depth(shadow, light);

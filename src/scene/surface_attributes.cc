@@ -31,6 +31,11 @@ void repair_tangents(Primitive& primitive) {
   for (std::size_t i = 0; i < primitive.tangents.size(); ++i) {
     glm::vec4& tangent = primitive.tangents[i];
     const glm::dvec3 direction(tangent);
+    // Of unit length already, to rounding: the file's bits are kept, as normals' are, so that what is written is what is read.
+    if (std::abs(glm::dot(direction, direction) - 1) < 4e-6) {
+      tangent.w = tangent.w < 0 ? -1.0F : 1.0F;
+      continue;
+    }
     tangent = glm::vec4(glm::vec3(unit_or(direction, any_perpendicular(glm::dvec3(primitive.normals[i])))),
                         tangent.w < 0 ? -1.0F : 1.0F);
   }

@@ -21,12 +21,13 @@ int hexadecimal_digit(char c) {
 
 constexpr std::uint8_t kNotBase64 = 64;
 
+constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
 constexpr std::array<std::uint8_t, 256> make_base64_digits() {
   std::array<std::uint8_t, 256> digits{};
   digits.fill(kNotBase64);
-  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < alphabet.size(); ++i) {
-    digits[static_cast<unsigned char>(alphabet[i])] = static_cast<std::uint8_t>(i);
+  for (std::size_t i = 0; i < kBase64.size(); ++i) {
+    digits[static_cast<unsigned char>(kBase64[i])] = static_cast<std::uint8_t>(i);
   }
   digits['-'] = 62;  // RFC 4648's alphabet for URLs, which some exporters write
   digits['_'] = 63;
@@ -92,6 +93,34 @@ std::string percent_decoded(std::string_view text) {
     decoded += text[i];
   }
   return decoded;
+}
+
+std::string percent_encoded(std::string_view path) {
+  constexpr std::string_view kPlain = "-._~/";
+  std::string encoded;
+  for (const char c : path) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                          kPlain.find(c) != std::string_view::npos;
+    if (is_plain) {
+      encoded += c;
+    } else {
+      encoded += fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    }
+  }
+  return encoded;
+}
+
+std::string data_uri(std::string_view media_type, std::span<const std::byte> bytes) {
+  std::string uri = fmt::format("data:{};base64,", media_type);
+  uri.reserve(uri.size() + (bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = i; k < i + 3; ++k)
+      bits = bits << 8 | (k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[k]) : 0);
+    for (std::size_t k = 0; k < 4; ++k)
+      uri += i + k > bytes.size() ? '=' : kBase64[bits >> (18 - 6 * k) & 63U];
+  }
+  return uri;
 }
 
 tl::expected<std::vector<std::byte>, std::string> decode_data_uri(std::string_view uri) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,11 @@ tl::expected<std::vector<std::byte>, std::string> decode_data_uri(std::string_vi
 
 /// "%20" → " "; what is no valid escape stays as it is.
 std::string percent_decoded(std::string_view text);
+/// The reverse for a path: what is neither unreserved (RFC 3986) nor "/" is escaped.
+std::string percent_encoded(std::string_view path);
+
+/// "data:MEDIA;base64,…".
+std::string data_uri(std::string_view media_type, std::span<const std::byte> bytes);
 
 /// The file that a relative reference names: tried percent-decoded, as written, and with backslashes read as
 /// slashes.

@@ -588,6 +588,91 @@ const Case kGltfCases[] = {
       {"/extensions/KHR_lights_punctual/lights/0/color", "[0, 2, 1]"}},
      "f.gltf: lights[0].intensity: 1e+200 times the colour's 2 is more than 1e+30"},
 
+    // Our own extensions: what rigs say, in the words of glTF.
+    {"ProjectorUnknownKey",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_projector": {"yfov": 1, "outsid": "clamp"}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.outsid: a projector has "
+     "no key \"outsid\" (did you mean \"outside\"?)"},
+    {"ProjectorInTheWordsOfRigs",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions", R"({"LATERNA_projector": {"yfov_deg": 30}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector: needs one of \"yfov\", "
+     "\"xfov\", \"focalLength\", \"intrinsics\", \"orthographic\", \"frustum\", \"throwRatio\"\n"
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.yfov_deg: a projector "
+     "has no key \"yfov_deg\" (did you mean \"yfov\"?)"},
+    {"ProjectorWide",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions", R"({"LATERNA_projector": {"yfov": 4}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.yfov: expected a number "
+     "between 0 and 3.141592653589793, got 4"},
+    {"ProjectorSlide",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_projector": {"yfov": 1, "texture": {"index": 7}}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.texture.index: refers to "
+     "textures[7], but the last is textures[0]"},
+    {"ProjectorTwoSlides",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_projector": {"yfov": 1, "texture": {"index": 0}, "film": "wood.png"}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.film: give either film "
+     "or texture, not both"},
+    {"ProjectorImage",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_projector": {"yfov": 1, "intensityMap": {"uri": "none.exr"}}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.intensityMap.uri: "
+     "\"none.exr\" not "
+     "found (tried \"none.exr\")"},
+    {"ProjectorFilmElsewhere",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_projector": {"yfov": 1, "film": "/tmp/f.####.png"}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.film: "
+     "\"/tmp/f.####.png\" is an absolute path; only files given relative to the scene are read"},
+    {"ProjectorWord",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_projector": {"yfov": 1, "profile": "flat_field"}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.profile: expected one of "
+     "\"flatField\", \"uniformCandela\", got \"flat_field\" (did you mean \"flatField\"?)"},
+    {"ProjectorShadow",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_projector": {"yfov": 1, "shadow": {"constantBias": "much"}}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.shadow.constantBias: "
+     "expected a number from -1000000000 to 1000000000, got \"much\""},
+    {"ProjectorFocus",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_projector": {"yfov": 1, "focusDistance": 2}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.focusDistance: needs "
+     "\"apertureRadius\" beside it: through a pinhole all is in focus"},
+    {"ProjectorFar",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_projector": {"yfov": 1, "zfar": 0.05}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector.zfar: must be beyond "
+     "znear (0.1), got 0.05"},
+    {"ProjectorThatIsAPoint",
+     {{"/extensions/KHR_lights_punctual/lights/0/type", R"("point")"},
+      {"/extensions/KHR_lights_punctual/lights/0/extensions", R"({"LATERNA_projector": {"yfov": 1}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_projector: only a light of type "
+     "\"spot\" can be a projector"},
+    {"ProjectorTwice",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_projector": {"yfov": 1}, "LATERNA_lighting": {}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_lighting: stands beside "
+     "LATERNA_projector, which says all of it: give one of them"},
+    {"LightingCones",
+     {{"/extensions/KHR_lights_punctual/lights/0/extensions",
+       R"({"LATERNA_lighting": {"innerConeAngle": 0.75}})"}},
+     "f.gltf: extensions.KHR_lights_punctual.lights[0].extensions.LATERNA_lighting.innerConeAngle: the inner "
+     "cone (0.75) must not exceed the outer cone (0.5)"},
+    {"LightingOfANode",
+     {{"/nodes/0/extensions", R"({"LATERNA_lighting": {"castsShadow": 1, "casts_shadow": true}})"}},
+     "f.gltf: nodes[0].extensions.LATERNA_lighting.castsShadow: expected true or false, got 1\n"
+     "f.gltf: nodes[0].extensions.LATERNA_lighting.casts_shadow: a node has no key \"casts_shadow\""},
+    {"LightingOfAScene",
+     {{"/scenes/0/extensions", R"({"LATERNA_lighting": {"ambient": [0, 1, -1]}})"}},
+     "f.gltf: scenes[0].extensions.LATERNA_lighting.ambient[2]: expected a number from 0 to 1000000000000, "
+     "got -1"},
+    {"LightingOfACamera",
+     {{"/cameras/0/extensions",
+       R"({"LATERNA_lighting": {"frustum": {"left": 1, "right": 0, "bottom": 0, "top": 1}}})"}},
+     "f.gltf: cameras[0].extensions.LATERNA_lighting: the frustum has no width or no height"},
+
     // Several at once.
     {"Several",
      {{"/accessors/3/count", "-1"}, {"/nodes/1/camera", "5"}, {"/bufferViews/2/byteLength", "\"24\""}},

@@ -73,7 +73,7 @@ const RigCase kRigCases[] = {
      "r.json: line 2: cameras[0].position: is missing\n"
      "r.json: line 2: cameras[0].target: is missing\n"
      "r.json: line 2: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
-     "\"intrinsics\", \"orthographic\""},
+     "\"intrinsics\", \"orthographic\", \"frustum\""},
     {"CameraLooksNowhere",
      "{\"cameras\": [{\"position\": [1, 2, 3],\n\"target\": [1, 2, 3], \"yfov_deg\": 40}]}",
      "r.json: line 2: cameras[0].target: is the same point as position: there is no direction to look in"},
@@ -92,12 +92,16 @@ const RigCase kRigCases[] = {
      "r.json: line 1: cameras[0].yfov_deg: expected a number between 0 and 180, got 180"},
     {"FieldOfViewWord", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": \"40\"}]}",
      "r.json: line 1: cameras[0].yfov_deg: expected a number between 0 and 180, got \"40\""},
+    {"FrustumWithAspect",
+     "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"aspect\": 2, \"frustum\": {\"left\": -1, "
+     "\"right\": 1, \"bottom\": -1}}]}",
+     "r.json: line 1: cameras[0].aspect: follows from the sides of the frustum"},
     {"FieldOfViewMissing", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0]}]}",
      "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
-     "\"intrinsics\", \"orthographic\""},
+     "\"intrinsics\", \"orthographic\", \"frustum\""},
     {"FieldOfViewMisspelt", "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0],\n\"yfov\": 40}]}",
      "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
-     "\"intrinsics\", \"orthographic\"\n"
+     "\"intrinsics\", \"orthographic\", \"frustum\"\n"
      "r.json: line 2: cameras[0].yfov: a camera has no key \"yfov\" (did you mean \"yfov_deg\"?)"},
     {"FieldOfViewTwice",
      "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"yfov_deg\": 40,\n\"hfov_deg\": 50, "
@@ -286,7 +290,7 @@ const RigCase kRigCases[] = {
     {"ProjectorWithoutFrustum",
      "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0]}]}",
      "r.json: line 1: lights[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
-     "\"intrinsics\", \"orthographic\", \"throw_ratio\""},
+     "\"intrinsics\", \"orthographic\", \"frustum\", \"throw_ratio\""},
     {"ThrowRatioAndField",
      "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], \"yfov_deg\": 30, "
      "\"throw_ratio\": 1.5}]}",
@@ -298,7 +302,7 @@ const RigCase kRigCases[] = {
     {"ThrowRatioOfACamera",
      "{\"cameras\": [{\"position\": [0,0,1], \"target\": [0,0,0], \"throw_ratio\": 1.5}]}",
      "r.json: line 1: cameras[0]: needs one of \"yfov_deg\", \"hfov_deg\", \"focal_length_mm\", "
-     "\"intrinsics\", \"orthographic\"\n"
+     "\"intrinsics\", \"orthographic\", \"frustum\"\n"
      "r.json: line 1: cameras[0].throw_ratio: a camera has no key \"throw_ratio\""},
     {"FocalLengthAlone",
      "{\"lights\": [{\"type\": \"projector\", \"position\": [0,1,0], \"target\": [0,0,0], "

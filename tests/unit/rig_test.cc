@@ -344,5 +344,32 @@ TEST(Rig, GeneratedNamesAvoidWrittenOnes) {
   EXPECT_EQ(scene.nodes[0].name, "light 1.2");
 }
 
+TEST(Rig, AFrustumIsItsFourSides) {
+  const std::string sides = R"("frustum": {"left": -0.5, "right": 0.25, "bottom": -0.1, "top": 0.4})";
+  const Camera camera = load_camera(sides + R"(, "near": 0.2)");
+  EXPECT_FALSE(camera.aspect_from_picture);
+  EXPECT_EQ(camera.projection.left, -0.5);
+  EXPECT_EQ(camera.projection.right, 0.25);
+  EXPECT_EQ(camera.projection.bottom, -0.1);
+  EXPECT_EQ(camera.projection.top, 0.4);
+  EXPECT_EQ(camera.projection.near, 0.2);
+  EXPECT_FALSE(camera.projection.is_orthographic);
+  const std::string projector = std::string(R"("type": "projector", )") + kStand + ", ";
+  EXPECT_FALSE(load_light(projector + sides).aspect_from_slide);
+  EXPECT_TRUE(load_light(projector + sides + R"(, "aspect_from_slide": true)").aspect_from_slide);
+  const std::string parallel =
+      R"("frustum": {"left": -5, "right": 2, "bottom": -1, "top": 4, "parallel": true}, "near": -3, "far": 7)";
+  const Projection box = load_light(projector + parallel).projection;
+  EXPECT_TRUE(box.is_orthographic);
+  EXPECT_EQ(box.left, -5);
+  EXPECT_EQ(box.near, -3);
+  const Light window =
+      load_light(std::string(R"("type": "directional", )") + kStand +
+                 R"(, "frustum": {"left": -5, "right": 2, "bottom": -1, "top": 4}, "far": 9)");
+  EXPECT_FALSE(window.fit);
+  EXPECT_TRUE(window.projection.is_orthographic);
+  EXPECT_EQ(window.projection.right, 2);
+}
+
 }  // namespace
 }  // namespace laterna

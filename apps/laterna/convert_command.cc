@@ -1,0 +1,89 @@
+// laterna convert: scenes and rigs into one glTF file.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <system_error>
+
+#include "laterna/write_scene.h"
+#include "outcome.h"
+#include "scene_options.h"
+
+namespace laterna::app {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  std::string output;
+  bool embeds = false;
+};
+
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::size_t triangles_of(const Scene& scene) {
+  std::size_t corners = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Primitive& primitive : mesh.primitives)
+      corners += primitive.indices.empty() ? primitive.positions.size() : primitive.indices.size();
+  }
+  return corners / 3;
+}
+
+void tell(const Scene& scene, const std::string& output) {
+  std::size_t projectors = 0, lamps = 0;
+  for (const Light& light : scene.lights) {
+    projectors += light.type == LightType::projector ? 1 : 0;
+    lamps += light.distribution != nullptr ? 1 : 0;
+  }
+  std::error_code ignored;
+  const auto bytes = std::filesystem::file_size(output, ignored);
+  fmt::print("{}: {}, {} of {}, {}, {}, {} ({}, {}), {} bytes\n", output,
+             counted(scene.nodes.size(), "node", "nodes"), counted(scene.meshes.size(), "mesh", "meshes"),
+             counted(triangles_of(scene), "triangle", "triangles"),
+             counted(scene.materials.size(), "material", "materials"),
+             counted(scene.cameras.size(), "camera", "cameras"),
+             counted(scene.lights.size(), "light", "lights"), counted(projectors, "projector", "projectors"),
+             counted(lamps, "measured lamp", "measured lamps"), bytes);
+}
+
+int run_convert(const Options& options) {
+  if (const Result<void> possible = check_scene_output(options.output); !possible)
+    return report(possible.error());
+  const Result<Scene> scene = options.scene.load();
+  if (!scene) return report(scene.error());
+  const Result<std::vector<Diagnostic>> written =
+      write_scene(*scene, options.output, SceneWriteOptions{.embeds = options.embeds});
+  if (!written) return report(written.error());
+  report_warnings(*written);
+  tell(*scene, options.output);
+  return kOk;
+}
+
+}  // namespace
+
+void declare_convert(CLI::App& app, Run& run) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("convert", "scenes and rigs into one glTF file, projectors and all");
+  options->scene.declare_scene(*command);
+  command->add_option("-o,--output", options->output, "the file to write: .glb or .gltf")->required();
+  command->add_flag("--embed", options->embeds,
+                    "a .gltf of one piece: geometry, pictures and lamps inside it, as a .glb has them");
+  command->footer(
+      "\nWhat is written is what `laterna render` shows: its pictures are the same, bit for bit. Other "
+      "programs see\n"
+      "projectors as spotlights; what only Laterna knows is in the glTF extensions LATERNA_projector and\n"
+      "LATERNA_lighting, which they pass over. Beside a .gltf lie its .bin and those pictures that are not "
+      "in its\n"
+      "folder already. Films stay where they are, and are named relative to the file. What cannot be carried "
+      "is\n"
+      "told as a warning.\n"
+      "\nExamples:\n"
+      "  laterna convert room.glb --rig stage.json -o stage.glb\n"
+      "  laterna convert house.obj --up z --unit cm -o house.glb\n"
+      "  laterna convert stage.glb -o stage.gltf --embed\n");
+  command->callback([options, &run] { run = [options] { return run_convert(*options); }; });
+}
+
+}  // namespace laterna::app

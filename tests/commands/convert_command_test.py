@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""`laterna convert`: the same pictures from what is written, files that the schemas accept, and schemas that name every key.
+
+    convert_command_test.py LATERNA SCENES SCHEMAS
+"""
+
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+from pathlib import Path
+
+import jsonschema
+
+LATERNA = SCENES = SCHEMAS = None
+OK, BAD_USAGE, BAD_INPUT, CANNOT_WRITE = 0, 2, 3, 4
+
+
+def run(*arguments):
+    return subprocess.run([LATERNA, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+def load(schema):
+    return json.loads((SCHEMAS / f"{schema}.schema.json").read_text())
+
+
+def check(schema, instance):
+    with warnings.catch_warnings():  # its successor is not in Debian 12
+        warnings.simplefilter("ignore", DeprecationWarning)
+        resolver = jsonschema.RefResolver("", {}, store={"definitions.schema.json": load("definitions")})
+        jsonschema.Draft202012Validator(load(schema), resolver=resolver).validate(instance)
+
+
+def extensions(value, name):
+    """Every object of that name below `value`, with the member that holds its owner."""
+    if isinstance(value, list):
+        for each in value:
+            yield from extensions(each, name)
+    elif isinstance(value, dict):
+        if name in value.get("extensions", {}):
+            yield value["extensions"][name]
+        for each in value.values():
+            yield from extensions(each, name)
+
+
+class Convert(unittest.TestCase):
+    def setUp(self):
+        self.folder_ = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder_.cleanup)
+        self.folder = Path(self.folder_.name)
+
+    def convert(self, scene, rig, name):
+        done = run("convert", SCENES / scene, "--rig", SCENES / rig, "-o", self.folder / name)
+        self.assertEqual((done.returncode, done.stderr), (OK, ""))
+        return self.folder / name
+
+    def test_the_picture_is_the_same(self):
+        for scene, rig in [("stage.glb", "stage.json"), ("room.glb", "lamps.json"), ("road.glb", "headlights.json"),
+                           ("apron.glb", "taxi_light.json"), ("room.glb", "focus.json")]:
+            with self.subTest(rig=rig):
+                pictures = []
+                converted = self.convert(scene, rig, "a.gltf")
+                for i, source in enumerate([[SCENES / scene, "--rig", SCENES / rig], [converted]]):
+                    picture = self.folder / f"{i}.exr"
+                    done = run("render", *source, "-o", picture, "--size", "96x64", "--samples", "1")
+                    self.assertEqual(done.returncode, OK, done.stderr)
+                    pictures.append(picture.read_bytes())
+                self.assertEqual(pictures[0], pictures[1])
+
+    def test_the_schemas_accept_what_is_written(self):
+        for scene, rig in [("stage.glb", "stage.json"), ("table.glb", "table.json"), ("room.glb", "lamp.json"),
+                           ("room.glb", "lamps.json"), ("room.glb", "focus.json"), ("stage.glb", "ground.json")]:
+            with self.subTest(rig=rig):
+                gltf = json.loads(self.convert(scene, rig, "a.gltf").read_text())
+                lights = gltf["extensions"].get("KHR_lights_punctual", {})
+                for light in extensions(lights, "LATERNA_projector"):
+                    check("light.LATERNA_projector", light)
+                for light in extensions(lights, "LATERNA_lighting"):
+                    check("light.LATERNA_lighting", light)
+                for place in ["scene", "camera"]:
+                    for owner in gltf.get(place + "s", []):
+                        if "LATERNA_lighting" in owner.get("extensions", {}):
+                            check(place + ".LATERNA_lighting", owner["extensions"]["LATERNA_lighting"])
+
+    def known_keys(self, place, extension):
+        """The keys that the reader names where none of them is right."""
+        gltf = {"asset": {"version": "2.0"}, "scenes": [{}], "scene": 0,
+                "nodes": [{"extensions": {"KHR_lights_punctual": {"light": 0}}, "camera": 0}],
+                "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+                "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {}}]}}}
+        gltf["scenes"][0]["nodes"] = [0]
+        owners = {"light": gltf["extensions"]["KHR_lights_punctual"]["lights"][0], "camera": gltf["cameras"][0],
+                  "node": gltf["nodes"][0], "scene": gltf["scenes"][0]}
+        keys = list(load(f"{place}.{extension}")["properties"])
+        # Not null: a value of another type is no unknown key.
+        owners[place].setdefault("extensions", {})[extension] = {key: [{}] for key in keys + ["not_a_key"]}
+        file = self.folder / "keys.gltf"
+        file.write_text(json.dumps(gltf))
+        told = run("info", file).stderr
+        return keys, set(re.findall(r'has no key "(\w+)"', told))
+
+    def test_the_reader_knows_the_keys_of_the_schemas(self):
+        for place, extension in [("light", "LATERNA_projector"), ("camera", "LATERNA_lighting"),
+                                 ("node", "LATERNA_lighting"), ("scene", "LATERNA_lighting")]:
+            with self.subTest(place=place, extension=extension):
+                _, unknown = self.known_keys(place, extension)
+                self.assertEqual(unknown, {"not_a_key"})
+        # Of a spot: what is for directional lights alone is told to be unknown there.
+        _, unknown = self.known_keys("light", "LATERNA_lighting")
+        self.assertEqual(unknown, {"not_a_key", "angularDiameter", "halfWidth", "halfHeight", "frustum", "znear", "zfar"})
+
+    def test_the_schemas_know_every_name(self):
+        names = set(re.findall(r'\{"\w+", "(\w+)"\}', (SCHEMAS.parents[1] / "src/scene/setting_names.cc").read_text()))
+        text = "".join(file.read_text() for file in SCHEMAS.glob("*.json"))
+        self.assertEqual({name for name in names if f'"{name}"' not in text}, set())
+        self.assertGreater(len(names), 40)
+
+    def test_what_goes_wrong_is_told(self):
+        for arguments, code, message in [
+            ([SCENES / "room.glb", "-o", self.folder / "a.obj"], BAD_USAGE, "must end in .glb or .gltf"),
+            ([SCENES / "none.glb", "-o", self.folder / "a.glb"], BAD_INPUT, "no such file"),
+            ([SCENES / "room.glb", "-o", self.folder / "none" / "a.glb"], CANNOT_WRITE, "cannot create"),
+            ([SCENES / "room.glb"], BAD_USAGE, "--output is required"),
+        ]:
+            done = run("convert", *arguments)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(message, done.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+if __name__ == "__main__":
+    LATERNA, SCENES, SCHEMAS = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+    unittest.main(argv=sys.argv[:1])
