@@ -30,6 +30,9 @@ ROOMS = {
 PUBLIC_HEADERS = {
     "accuracy.h": "measure",
     "build_info.h": "measure",
+    "environment.h": "image",
+    "environment_accuracy.h": "measure",
+    "environment_probe.h": "render",
     "false_color.h": "measure",
     "film.h": "image",
     "image.h": "image",

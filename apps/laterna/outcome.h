@@ -34,6 +34,7 @@ void declare_bench(CLI::App& app, Run& run);
 void declare_accuracy(CLI::App& app, Run& run);
 void declare_gallery(CLI::App& app, Run& run);
 void declare_photo(CLI::App& app, Run& run);
+void declare_environment(CLI::App& app, Run& run);
 void declare_doctor(CLI::App& app, Run& run);
 
 }  // namespace laterna::app

@@ -14,7 +14,7 @@ constexpr float kPi32 = 3.14159265F;
 void add_default_light(Scene& scene) {
   const bool has_light =
       std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.light >= 0; });
-  if (has_light || scene.ambient_is_set) return;
+  if (has_light || scene.ambient_is_set || scene.environment) return;
   if (!scene.photographs.empty() && !scene.photograph_settings.are_lit) return;  // they need no light
   Light sun;
   sun.name = "default sun";

@@ -8,6 +8,7 @@
 #include "scene/gltf_accessors.h"
 #include "scene/gltf_buffers.h"
 #include "scene/gltf_container.h"
+#include "scene/gltf_environment.h"
 #include "scene/gltf_extension.h"
 #include "scene/gltf_lamps.h"
 #include "scene/gltf_lights.h"
@@ -145,11 +146,13 @@ Result<Scene> read_document(const JsonDocument& json, const Container& container
   Lamps lamps(json, buffers, folder, faults);
   SceneBuilder builder(json, meshes, accessors, lamps, faults);
   for (const PlacedNode& node : placed) builder.add(node);
+  std::optional<Environment> environment = read_environment(json, textures, faults);
   if (faults.has_errors()) return failure(faults);
   Scene scene = builder.take();
   scene.meshes = meshes.take();
   scene.materials = materials.take();
   scene.pictures = textures.take_pictures();
+  scene.environment = std::move(environment);
   scene.warnings = faults.warnings();
   return scene;
 }

@@ -5,6 +5,7 @@
 #include "scene/fault_list.h"
 #include "scene/json_document.h"
 #include "scene/json_object.h"
+#include "scene/rig_environment.h"
 #include "scene/rig_frustum.h"
 #include "scene/rig_lights.h"
 #include "scene/rig_pose.h"
@@ -49,6 +50,8 @@ class RigReader {
     if (const auto background = root.numbers<3>("background", kAmountOfLight)) {
       scene.background = glm::vec3((*background)[0], (*background)[1], (*background)[2]);
     }
+    if (const JsonValue* value = root.object("environment"))
+      scene.environment = read_rig_environment(json_, *value, folder_, scene.pictures, faults_);
     if (const JsonValue* value = root.object("shading")) {
       JsonObject shading(json_, *value, faults_);
       PhongHighlight highlight;

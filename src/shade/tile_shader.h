@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "laterna/stages.h"
 #include "raster/tile_raster.h"
+#include "shade/environment_light.h"
 #include "shade/illumination.h"
 #include "shade/light_reach.h"
 #include "shade/photograph_painter.h"
@@ -42,6 +44,7 @@ struct ShaderJob {
   std::span<const raster::Batch> batches;
   std::vector<ShaderLight> lights;
   PhotographJob photographs;
+  std::optional<EnvironmentLight> environment;
   std::vector<BoundLight> physical_lights;  // for lux where the model is not physical; otherwise empty
   ReflectionSettings reflection;
   Interpolation interpolation = Interpolation::perspective;
