@@ -69,12 +69,36 @@ std::size_t EnvironmentPicture::folded(int panel, int x, int y) const {
     const auto hold = [](double& at) { at = std::clamp(at, -1 - 1e-9, 1 + 1e-9); };
     hold(point.a);
     hold(point.b);
-  } else if (chart_ == EnvironmentChart::sphere) {
-    const double radius = std::sqrt(point.a * point.a + point.b * point.b);
-    const double inside = (1 - 1.5 / size_) / radius;
-    return nearest({panel, point.a * inside, point.b * inside});
+  } else if (has_discs(chart_)) {
+    return nearest_within_rim(panel_from_direction(chart_, direction_from_panel(chart_, point)));
   }
   return nearest(panel_from_direction(chart_, direction_from_panel(chart_, point)));
+}
+
+// So far inside that the middle of the texel is.
+std::size_t EnvironmentPicture::nearest_within_rim(const PanelPoint& point) const {
+  const double radius = std::sqrt(point.a * point.a + point.b * point.b),
+               most = std::max(1 - 1.5 / size_, 0.0);
+  const double factor = radius > most ? most / radius : 1;
+  return nearest({point.panel, point.a * factor, point.b * factor});
+}
+
+// What a texel beyond the rim would show, from those of `own` that do show something.
+glm::vec3 EnvironmentPicture::beyond_rim(const std::vector<glm::vec3>& own, const PanelPoint& centre) const {
+  const PanelPoint point = panel_from_direction(chart_, direction_from_panel(chart_, centre));
+  const double x = (point.a + 1) / 2 * panel_width_ - 0.5, y = (point.b + 1) / 2 * size_ - 0.5;
+  glm::dvec3 sum(0);
+  double weight = 0;
+  for (const double row : {std::floor(y), std::floor(y) + 1}) {
+    for (const double column : {std::floor(x), std::floor(x) + 1}) {
+      const PanelPoint texel = centre_of(point.panel, static_cast<int>(column), static_cast<int>(row));
+      if (is_beyond_rim(texel)) continue;
+      const double share = (1 - std::abs(x - column)) * (1 - std::abs(y - row));
+      sum += glm::dvec3(own[nearest(texel)]) * share;
+      weight += share;
+    }
+  }
+  return weight > 0.05 ? glm::vec3(sum / weight) : own[nearest_within_rim(point)];
 }
 
 // Borders, and what lies beyond the rim of discs: a stranger's picture may hold anything there.
@@ -85,8 +109,7 @@ void EnvironmentPicture::fill_borders() {
       for (int x = -1; x <= panel_width_; ++x) {
         const bool is_beyond_side = x < 0 || y < 0 || x >= panel_width_ || y >= size_;
         const PanelPoint centre = centre_of(p, x, y);
-        const bool is_beyond_rim = has_discs(chart_) && centre.a * centre.a + centre.b * centre.b > 1;
-        if (!is_beyond_side && !is_beyond_rim) continue;
+        if (!is_beyond_side && !is_beyond_rim(centre)) continue;
         const bool is_corner = (x < 0 || x >= panel_width_) && (y < 0 || y >= size_);
         if (is_cube(chart_) && is_corner) {
           // Three faces meet: the mean of the three texels, as OpenGL's seamless filtering has it.
@@ -94,6 +117,8 @@ void EnvironmentPicture::fill_borders() {
           texels_[index(p, x, y)] =
               (own[index(p, inner_x, inner_y)] + own[folded(p, x, inner_y)] + own[folded(p, inner_x, y)]) /
               3.0F;
+        } else if (chart_ == EnvironmentChart::dual_paraboloid) {
+          texels_[index(p, x, y)] = beyond_rim(own, centre);
         } else {
           texels_[index(p, x, y)] = own[folded(p, x, y)];
         }

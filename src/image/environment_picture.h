@@ -31,6 +31,11 @@ class EnvironmentPicture {
   }
   [[nodiscard]] std::size_t folded(int panel, int x, int y) const;
   [[nodiscard]] std::size_t nearest(const PanelPoint& point) const;
+  [[nodiscard]] std::size_t nearest_within_rim(const PanelPoint& point) const;
+  [[nodiscard]] bool is_beyond_rim(const PanelPoint& point) const {
+    return has_discs(chart_) && point.a * point.a + point.b * point.b > 1;
+  }
+  [[nodiscard]] glm::vec3 beyond_rim(const std::vector<glm::vec3>& own, const PanelPoint& centre) const;
   [[nodiscard]] PanelPoint centre_of(int panel, int x, int y) const;
   void fill_borders();
 

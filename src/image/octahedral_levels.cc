@@ -1,5 +1,9 @@
 #include "image/octahedral_levels.h"
 
+#include <utility>
+
+#include "image/environment_chart.h"
+
 namespace laterna::image {
 
 std::size_t OctahedralLevels::add_level(int side) {
@@ -46,20 +50,51 @@ void OctahedralLevels::fill_border(std::size_t level) {
   copy(-1, side, last, 0);
 }
 
+namespace {
+
+// Solid angles of texels, up to a factor.
+std::vector<float> texel_weights(int side) {
+  std::vector<float> weights;
+  weights.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const PanelPoint middle{0, (2 * x + 1.0) / side - 1, (2 * y + 1.0) / side - 1};
+      weights.push_back(static_cast<float>(panel_density(EnvironmentChart::octahedral, middle)));
+    }
+  }
+  return weights;
+}
+
+}  // namespace
+
 OctahedralLevels make_octahedral_pyramid(int side, const std::vector<glm::vec3>& texels) {
   OctahedralLevels pyramid;
   pyramid.set(pyramid.add_level(side), texels);
+  std::vector<float> weights = texel_weights(side);
   for (int half = side / 2; half >= 4; half /= 2) {
     const std::size_t level = pyramid.add_level(half);
-    for (AlignedVector<float>* plane : {&pyramid.r, &pyramid.g, &pyramid.b}) {
-      const auto at = [&](int x, int y) { return (*plane)[pyramid.index(level - 1, x, y)]; };
-      for (int y = 0; y < half; ++y) {
-        for (int x = 0; x < half; ++x) {
-          (*plane)[pyramid.index(level, x, y)] = 0.25F * ((at(2 * x, 2 * y) + at(2 * x + 1, 2 * y)) +
-                                                          (at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1)));
+    std::vector<float> sums;
+    sums.reserve(weights.size() / 4);
+    for (int y = 0; y < half; ++y) {
+      for (int x = 0; x < half; ++x) {
+        glm::vec3 light(0);
+        float sum = 0;
+        for (int i = 0; i < 4; ++i) {
+          const int from_x = 2 * x + i % 2, from_y = 2 * y + i / 2;
+          const std::size_t from = pyramid.index(level - 1, from_x, from_y);
+          const float weight = weights[static_cast<std::size_t>(from_y) * 2 * static_cast<std::size_t>(half) +
+                                       static_cast<std::size_t>(from_x)];
+          light += glm::vec3(pyramid.r[from], pyramid.g[from], pyramid.b[from]) * weight;
+          sum += weight;
         }
+        const std::size_t to = pyramid.index(level, x, y);
+        pyramid.r[to] = light.x / sum;
+        pyramid.g[to] = light.y / sum;
+        pyramid.b[to] = light.z / sum;
+        sums.push_back(sum);
       }
     }
+    weights = std::move(sums);
     pyramid.fill_border(level);
   }
   return pyramid;

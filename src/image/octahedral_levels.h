@@ -36,7 +36,7 @@ struct OctahedralLevels {
 /// Texels in all levels at most: indices are 32 bits wide with a sign.
 inline constexpr std::size_t kMaxOctahedralTexels = std::size_t{1} << 28;
 
-/// The levels down to a side of 4, each the mean of four texels of the one before. `texels`: side · side, side a power of
+/// The levels down to a side of 4, each the mean of four texels of the one before by their solid angles. `texels`: side · side, side a power of
 /// two of at least 4.
 OctahedralLevels make_octahedral_pyramid(int side, const std::vector<glm::vec3>& texels);
 

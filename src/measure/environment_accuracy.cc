@@ -46,8 +46,8 @@ void for_each_light(const Axes& axes, double n_v, double alpha, Use use) {
   const double a2 = alpha * alpha;
   const glm::dvec3 eye(std::sqrt(std::max(0.0, 1 - n_v * n_v)), 0, n_v);
   for (int i = 0; i < kSamples; ++i) {
-    const double u = sample_number({i, kSamples}, SampleDimension::pixel_x);
-    const double turn = 2 * kPi * sample_number({i, kSamples}, SampleDimension::pixel_y);
+    const auto [u, v] = lattice_point({i, kSamples});
+    const double turn = 2 * kPi * v;
     const double n_h = std::sqrt((1 - u) / (1 + (a2 - 1) * u));
     const double across = std::sqrt(std::max(0.0, 1 - n_h * n_h));
     const glm::dvec3 half(across * cosine(turn), across * sine(turn), n_h);

@@ -16,8 +16,8 @@ ScaleAndBias integrate_reflectance(double n_v, double roughness, int count) {
   const double v_x = std::sqrt(std::max(0.0, 1 - n_v * n_v));
   ScaleAndBias sum{0, 0};
   for (int i = 0; i < count; ++i) {
-    const double u = sample_number({i, count}, SampleDimension::pixel_x);
-    const double turn = 2 * kPi * sample_number({i, count}, SampleDimension::pixel_y);
+    const auto [u, v] = lattice_point({i, count});
+    const double turn = 2 * kPi * v;
     const double n_h = std::sqrt((1 - u) / (1 + (a2 - 1) * u));
     const double h_x = std::sqrt(std::max(0.0, 1 - n_h * n_h)) * cosine(turn);
     const double v_h = v_x * h_x + n_v * n_h;

@@ -77,9 +77,9 @@ Scene lit_scene(float metallic, float roughness) {
     material.metallic = metallic;
     material.roughness = roughness;
   }
-  auto sky = std::make_shared<Image>(32, 16, 3, PixelType::f32, Transfer::linear);
+  auto sky = std::make_shared<Image>(16, 8, 3, PixelType::f32, Transfer::linear);
   const auto values = sky->values<float>();
-  const std::vector<glm::vec3> texels = random_texels(32 * 16, 5);
+  const std::vector<glm::vec3> texels = random_texels(16 * 8, 5);
   for (std::size_t i = 0; i < texels.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) values[3 * i + k] = texels[i][static_cast<int>(k)];
   }
@@ -129,7 +129,7 @@ TEST(EnvironmentLight, IsTheSplitSum) {
   for (std::size_t i = 0; i < sky.values<float>().size(); i += 3)
     texels.emplace_back(sky.values<float>()[i], sky.values<float>()[i + 1], sky.values<float>()[i + 2]);
   const TaskPool pool(1);
-  const image::EnvironmentMap map = image::make_environment_map({EnvironmentChart::latlong, 32, 16, texels},
+  const image::EnvironmentMap map = image::make_environment_map({EnvironmentChart::latlong, 16, 8, texels},
                                                                 pool, best_instruction_set(), {});
   const glm::dmat3 environment_from_world = glm::transpose(scene.environment->world_from_environment);
   const glm::dvec3 base(0.9F, 0.5F, 0.2F);

@@ -95,7 +95,7 @@ Errors mirror_errors(const Renderer& renderer, const glm::dvec3& eye, const glm:
 
 // Row 63: a mirror ball shows each direction where reflection puts it, to within half a texel.
 TEST(EnvironmentMap, MirrorBallShowsDirectionsToHalfATexel) {
-  constexpr int kHeight = 128;
+  constexpr int kHeight = 64;
   const Renderer renderer = make_renderer(ball_in(latlong(kHeight, colour_of_direction), 1, 0));
   const Errors errors = mirror_errors(
       renderer, kEye, {0, 0, 0}, [](const glm::dvec3&, const glm::dvec3& reflected) { return reflected; });
@@ -106,16 +106,16 @@ TEST(EnvironmentMap, MirrorBallShowsDirectionsToHalfATexel) {
 // Row 63: left is left and up is up; a turn by 90° brings what was ahead to the left.
 TEST(EnvironmentMap, BackgroundIsTheRightWayRound) {
   const auto ahead = [](const RenderSettings& settings, const Renderer& renderer, const glm::dvec3& target) {
-    const LayeredImage image = render(renderer, look({0, 0, 0}, target, 20, 1, {0, 0.6, 0.8}), settings);
+    const LayeredImage image = render(renderer, look({0, 0, 0}, target, 20, 1, {0.48, 0.6, 0.64}), settings);
     const glm::dvec3 seen = value(image, "", "RGB", 8, 8);
     return glm::normalize(seen * 2.0 - 1.0);
   };
   const RenderSettings settings = test_settings(17, 17);
-  Scene scene = ball_in(latlong(64, colour_of_direction), 1, 0, {0, 0, 500});
+  Scene scene = ball_in(latlong(32, colour_of_direction), 1, 0, {0, 0, 500});
   const Renderer as_it_is = make_renderer(scene);
   for (const glm::dvec3 to : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0),
                               glm::dvec3(0, -1, 0), glm::dvec3(0.6, 0, -0.8), glm::dvec3(0, -0.6, -0.8)}) {
-    EXPECT_GT(glm::dot(ahead(settings, as_it_is, to), to), std::cos(0.5 * kPi / 64));
+    EXPECT_GT(glm::dot(ahead(settings, as_it_is, to), to), std::cos(0.5 * kPi / 32));
   }
   scene.environment->world_from_environment = {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}};  // 90° about +Y
   const Renderer turned = make_renderer(scene);
@@ -133,7 +133,7 @@ TEST(EnvironmentMap, ParallaxIsCorrectedByBoxAndSphere) {
     return p + d * t;
   };
   // Walls are told apart by where they are hit, seen from the middle: the colour is that direction.
-  Scene scene = ball_in(latlong(256, colour_of_direction), 1, 0, {1.5F, 0.5F, -1});
+  Scene scene = ball_in(latlong(64, colour_of_direction), 1, 0, {1.5F, 0.5F, -1});
   scene.environment->box_low_ws = -half;
   scene.environment->box_high_ws = half;
   scene.environment->radius = 3;
@@ -144,7 +144,7 @@ TEST(EnvironmentMap, ParallaxIsCorrectedByBoxAndSphere) {
   };
   const Errors infinite = errors_with(EnvironmentDistance::infinite),
                ball = errors_with(EnvironmentDistance::sphere), box = errors_with(EnvironmentDistance::box);
-  EXPECT_LT(box.largest, 0.5 * 180 / 256);
+  EXPECT_LT(box.largest, 0.5 * 180 / 64);
   EXPECT_GT(infinite.mean, 15);
   EXPECT_LT(ball.mean, infinite.mean / 2);
   RecordProperty("infinite_mean_deg", std::to_string(infinite.mean));
@@ -253,9 +253,9 @@ TEST(EnvironmentCharts, ConvertIntoEachOtherWithoutSeams) {
           }
         }
       }
-      // A mirror ball's rim is stretched along one side: seven times as coarse as the rest.
+      // Texels at the rim of a mirror ball are 17° long: half of that times how fast the light changes.
       const bool is_sphere = from.chart == EnvironmentChart::sphere || to.chart == EnvironmentChart::sphere;
-      EXPECT_LT(largest, is_sphere ? 0.12 : 0.02) << from.name << " to " << to.name;
+      EXPECT_LT(largest, is_sphere ? 0.15 : 0.02) << from.name << " to " << to.name;
     }
   }
 }
@@ -284,48 +284,63 @@ image::EnvironmentPicture picture_of(const Image& image) {
   return {EnvironmentChart::latlong, image.width(), image.height(), texels};
 }
 
-// A sky with a sun a thousand times as bright, and a dark ground with stripes.
+// A sky with a sun three hundred times as bright and 8° wide, and a dark ground with stripes.
 glm::dvec3 sunny(const glm::dvec3& d) {
   const glm::dvec3 sun = glm::normalize(glm::dvec3(0.5, 0.6, -0.4));
-  const double disc = glm::dot(d, sun) > std::cos(4 * kPi / 180) ? 300 : 0;
+  const double disc = 300 * std::exp(-(1 - glm::dot(d, sun)) / (1 - std::cos(4 * kPi / 180)));
   const glm::dvec3 sky =
       d.y > 0 ? glm::dvec3(0.4, 0.6, 1) * (1 + d.y) : glm::dvec3(0.2 + 0.1 * std::sin(9 * d.x));
   return sky + glm::dvec3(disc);
+}
+
+// Directions all around with their light: one at random in each of many small fields.
+struct LightSample {
+  glm::dvec3 direction, radiance;
+  double solid_angle;
+};
+std::vector<LightSample> sample_all_around(const image::EnvironmentPicture& picture) {
+  constexpr int kGrid = 400;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<LightSample> samples;
+  for (int i = 0; i < kGrid * kGrid; ++i) {
+    const image::PanelPoint at{0, 2 * (i % kGrid + uniform(random)) / kGrid - 1,
+                               2 * (i / kGrid + uniform(random)) / kGrid - 1};
+    const glm::dvec3 direction = image::direction_from_panel(EnvironmentChart::octahedral, at);
+    samples.push_back({direction, picture.look_up(direction),
+                       image::panel_density(EnvironmentChart::octahedral, at) * 4 / (kGrid * kGrid)});
+  }
+  return samples;
 }
 
 // Row 65: what is kept for a roughness is the integral over GGX's lobe with N = V = R, by Monte Carlo, to 2 %.
 TEST(SpecularMap, MatchesMonteCarloTo2Percent) {
   const auto source = latlong(128, sunny);
   const image::EnvironmentPicture picture = picture_of(*source);
-  const TaskPool pool(1);
-  const image::EnvironmentMap map = image::make_environment_map(picture, pool, best_instruction_set(), {});
+  const std::vector<LightSample> samples = sample_all_around(picture);
+  const image::EnvironmentMap map =
+      image::make_environment_map(picture, TaskPool(1), best_instruction_set(), {});
   ASSERT_EQ(map.mirrored.levels.size(), image::kMirrorLevels);
-  std::mt19937 random(3);
+  std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform;
   for (std::size_t level = 1; level < image::kMirrorLevels; ++level) {
     const double roughness = static_cast<double>(level) / (image::kMirrorLevels - 1),
                  a2 = std::pow(roughness, 4);
     const int side = map.mirrored.levels[level].side;
-    constexpr int kTexels = 24, kGrid = 80;
     double squared_error = 0, squared = 0;
-    for (int i = 0; i < kTexels; ++i) {
+    for (int i = 0; i < 32; ++i) {
       const int x = static_cast<int>(uniform(random) * side), y = static_cast<int>(uniform(random) * side);
       const glm::dvec3 n =
           *direction_from_image(EnvironmentChart::octahedral, {(x + 0.5) / side, (y + 0.5) / side});
-      const glm::dvec3 t =
-          glm::normalize(glm::cross(n, std::abs(n.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
-      const glm::dvec3 s = glm::cross(n, t);
       glm::dvec3 sum(0);
       double weight = 0;
-      for (int k = 0; k < kGrid * kGrid; ++k) {
-        const double u = (k / kGrid + uniform(random)) / kGrid, v = (k % kGrid + uniform(random)) / kGrid;
-        const double cosine = std::sqrt((1 - u) / (1 + (a2 - 1) * u)), sine = std::sqrt(1 - cosine * cosine);
-        const glm::dvec3 h = (t * std::cos(2 * kPi * v) + s * std::sin(2 * kPi * v)) * sine + n * cosine;
-        const glm::dvec3 light = h * (2 * cosine) - n;
-        const double n_l = glm::dot(n, light);
+      for (const LightSample& sample : samples) {
+        const double n_l = sample.direction.x * n.x + sample.direction.y * n.y + sample.direction.z * n.z;
         if (n_l <= 0) continue;
-        sum += picture.look_up(light) * n_l;
-        weight += n_l;
+        // D of the half vector, whose squared cosine is (1 + n·l) / 2.
+        const double t = (1 + n_l) / 2 * (a2 - 1) + 1, share = n_l / (t * t) * sample.solid_angle;
+        sum += sample.radiance * share;
+        weight += share;
       }
       const glm::dvec3 truth = sum / weight;
       const std::size_t at_texel = map.mirrored.index(level, x, y);
@@ -385,7 +400,7 @@ TEST(SpecularMap, SplitSumIsTheIntegralOfTheReflectance) {
 
 // A white furnace: in an environment of 1 everywhere a white ball cannot be told from it, whatever it is made of.
 TEST(SpecularMap, WhiteBallsVanishInAWhiteFurnace) {
-  const auto white = latlong(16, [](const glm::dvec3&) { return glm::dvec3(1); });
+  const auto white = latlong(4, [](const glm::dvec3&) { return glm::dvec3(1); });
   for (const ShadingModel model : {ShadingModel::pbr, ShadingModel::papers}) {
     for (const float metallic : {0.0F, 1.0F}) {
       for (const float roughness : {0.0F, 0.3F, 0.7F, 1.0F}) {

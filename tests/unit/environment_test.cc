@@ -15,7 +15,7 @@ namespace {
 using namespace reference;
 using namespace testing_scenes;
 
-std::shared_ptr<const Image> plain_sky(glm::vec3 colour, int height = 16) {
+std::shared_ptr<const Image> plain_sky(glm::vec3 colour, int height = 4) {
   auto sky = std::make_shared<Image>(2 * height, height, 3, PixelType::f32, Transfer::linear);
   const auto values = sky->values<float>();
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = colour[static_cast<int>(i % 3)];
@@ -222,7 +222,7 @@ TEST(EnvironmentCache, ChangesNoPicture) {
   int steps = 0;
   options.environment_progress = [&](double) { return ++steps > 0; };
   const auto picture = [&] {
-    const auto renderer = Renderer::create(room_under(plain_sky({1, 2, 3}, 32)), options);
+    const auto renderer = Renderer::create(room_under(plain_sky({1, 2, 3}, 8)), options);
     return renderer ? render(*renderer, kView, test_settings(32, 32)).find("G")->values
                     : std::vector<float>();
   };

@@ -31,6 +31,7 @@ Chapter segal_1992_chapter();
 Chapter chen_tung_chapter();
 Chapter wikipedia_chapter();
 Chapter bentley_chapter();
+Chapter environment_chapter();
 Chapter later_chapter();
 
 /// A picture of a figure, once it is drawn.
