@@ -34,8 +34,8 @@ const Case kRigCases[] = {
     {"NotAnObject", "\"sky.hdr\"", "r.json: line 2: environment: expected an object, got \"sky.hdr\""},
     {"NoImage", "{}", "r.json: line 2: environment.image: is missing"},
     {"UnknownChart", R"({"image": "sky.hdr", "chart": "latlon"})",
-     "r.json: line 2: environment.chart: expected \"latlong\", \"cube\", \"horizontal_cross\", "
-     "\"vertical_cross\", \"sphere\", \"dual_paraboloid\" or \"octahedral\", got \"latlon\" (did you mean "
+     "r.json: line 2: environment.chart: expected one of \"latlong\", \"cube\", \"horizontal_cross\", "
+     "\"vertical_cross\", \"sphere\", \"dual_paraboloid\", \"octahedral\", got \"latlon\" (did you mean "
      "\"latlong\"?)"},
     {"Negative", R"({"image": "sky.hdr", "intensity": -1})",
      "r.json: line 2: environment.intensity: expected a number from 0 to 1000000000000, got -1"},
@@ -52,7 +52,8 @@ const Case kRigCases[] = {
     {"CenterAlone", R"({"image": "sky.hdr", "center": [5,0,0]})",
      "r.json: line 2: environment.center: has no effect without a box or a sphere"},
     {"Sphere", R"({"image": "sky.hdr", "center": [0,0,0], "sphere": {"radius": 0, "size": 1}})",
-     "r.json: line 2: environment.sphere.radius: expected a number from above 0 to 1000000000, got 0\n"
+     "r.json: line 2: environment.sphere.radius: expected a number greater than 0 and at most 1000000000, "
+     "got 0\n"
      "r.json: line 2: environment.sphere.size: a sphere has no key \"size\""},
     {"UnknownKey", R"({"image": "sky.hdr", "rotation": 3})",
      "r.json: line 2: environment.rotation: an environment has no key \"rotation\" (did you mean "
