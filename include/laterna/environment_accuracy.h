@@ -18,7 +18,7 @@ struct SplitSumError {
   double prefilter = 0;
 };
 
-/// For roughness 1/6 … 1 and n·v 1, 0.8 … 0.2 (row 65: the remaining error of the split sum, by roughness and angle).
+/// For roughness 0.25 … 1 (lobes narrower than that would need finer directions) and n·v 1, 0.8 … 0.2 (row 65: the remaining error of the split sum, by roughness and angle).
 /// Errors: as convert_environment().
 Result<std::vector<SplitSumError>> measure_split_sum(const LayeredImage& environment, EnvironmentChart chart,
                                                      int threads = 0);

@@ -15,8 +15,8 @@
 namespace laterna {
 namespace {
 
-constexpr int kViews = 96, kSamples = 4096, kSplitSumSamples = 4096;
-constexpr std::array<double, 6> kRoughness = {1.0 / 6, 1.0 / 3, 0.5, 2.0 / 3, 5.0 / 6, 1};
+constexpr int kViews = 48, kFields = 512, kSplitSumSamples = 4096;
+constexpr std::array<double, 6> kRoughness = {0.25, 1.0 / 3, 0.5, 2.0 / 3, 5.0 / 6, 1};
 constexpr std::array<double, 5> kCosines = {1, 0.8, 0.6, 0.4, 0.2};
 
 double luminance_of(const glm::dvec3& c) {
@@ -40,22 +40,27 @@ Axes axes_about(const glm::dvec3& z) {
   return {x, glm::cross(z, x), z};
 }
 
-// A lobe's directions by GGX's normals, about axes whose z is the surface's normal and in whose x-z plane the eye is.
-template <class Use>  // Use(light direction, n·l, n·h, v·h)
-void for_each_light(const Axes& axes, double n_v, double alpha, Use use) {
-  const double a2 = alpha * alpha;
-  const glm::dvec3 eye(std::sqrt(std::max(0.0, 1 - n_v * n_v)), 0, n_v);
-  for (int i = 0; i < kSamples; ++i) {
-    const auto [u, v] = lattice_point({i, kSamples});
-    const double turn = 2 * kPi * v;
-    const double n_h = std::sqrt((1 - u) / (1 + (a2 - 1) * u));
-    const double across = std::sqrt(std::max(0.0, 1 - n_h * n_h));
-    const glm::dvec3 half(across * cosine(turn), across * sine(turn), n_h);
-    const double v_h = glm::dot(eye, half);
-    const glm::dvec3 light = half * (2 * v_h) - eye;
-    if (light.z <= 0 || v_h <= 0) continue;
-    use(axes.x * light.x + axes.y * light.y + axes.z * light.z, light.z, n_h, v_h);
+// A direction with the luminance that comes from it, one for each of many small fields all around.
+struct LightSample {
+  glm::dvec3 direction;
+  double luminance, solid_angle;
+};
+std::vector<LightSample> sample_all_around(const image::EnvironmentPicture& source) {
+  std::vector<LightSample> samples;
+  samples.reserve(std::size_t{kFields} * kFields);
+  for (int y = 0; y < kFields; ++y) {
+    for (int x = 0; x < kFields; ++x) {
+      // Anywhere in its field: no two rows of fields are alike.
+      const auto [u, v] = lattice_point({y * kFields + x, kFields * kFields});
+      const double jitter = u * kFields - std::floor(u * kFields);
+      const image::PanelPoint at{0, 2 * (x + v) / kFields - 1, 2 * (y + jitter) / kFields - 1};
+      const glm::dvec3 direction = image::direction_from_panel(EnvironmentChart::octahedral, at);
+      samples.push_back(
+          {direction, luminance_of(source.look_up(direction)),
+           image::panel_density(EnvironmentChart::octahedral, at) * 4 / (double{kFields} * kFields)});
+    }
   }
+  return samples;
 }
 
 // Luminance of a level's texel nearest to a direction, interpolated.
@@ -97,30 +102,40 @@ struct Squares {
 };
 
 // The prefiltered map against its own integral, at one direction.
-void add_prefilter_error(const image::EnvironmentPicture& source, const MapReader& map, double roughness,
+void add_prefilter_error(const std::vector<LightSample>& lights, const MapReader& map, double roughness,
                          const glm::dvec3& reflected, Squares& squares) {
+  const double a2 = roughness * roughness * roughness * roughness;
   double sum = 0, weight = 0;
-  for_each_light(axes_about(reflected), 1, roughness * roughness,
-                 [&](const glm::dvec3& light, double n_l, double, double) {
-                   sum += luminance_of(source.look_up(light)) * n_l;
-                   weight += n_l;
-                 });
+  for (const LightSample& light : lights) {
+    const double n_l = glm::dot(reflected, light.direction);
+    if (n_l <= 0) continue;
+    const double t = (1 + n_l) / 2 * (a2 - 1) + 1, share = n_l / (t * t) * light.solid_angle;
+    sum += light.luminance * share;
+    weight += share;
+  }
   squares.add(map.look_up(roughness, reflected), sum / weight);
 }
 
-void add_split_sum_error(const image::EnvironmentPicture& source, const MapReader& map, double roughness,
+void add_split_sum_error(const std::vector<LightSample>& lights, const MapReader& map, double roughness,
                          double n_v, const shade::ScaleAndBias& entry, const glm::dvec3& normal,
                          Squares& squares) {
   const Axes axes = axes_about(normal);
+  const double across = std::sqrt(std::max(0.0, 1 - n_v * n_v));
+  const glm::dvec3 eye = axes.x * across + axes.z * n_v;
   const double alpha = std::max(roughness * roughness, 1e-3), a2 = alpha * alpha;
   const auto smith = [&](double c) { return c + std::sqrt(a2 + (1 - a2) * c * c); };
   double sum = 0;
-  for_each_light(axes, n_v, alpha, [&](const glm::dvec3& light, double n_l, double n_h, double v_h) {
-    // A white metal's Fresnel term is 1.
-    sum += luminance_of(source.look_up(light)) * 4 * n_l * v_h / (n_h * smith(n_l) * smith(n_v));
-  });
-  const glm::dvec3 reflected = axes.z * n_v - axes.x * std::sqrt(std::max(0.0, 1 - n_v * n_v));
-  squares.add(map.look_up(roughness, reflected) * (entry.scale + entry.bias), sum / kSamples);
+  for (const LightSample& light : lights) {
+    const double n_l = glm::dot(normal, light.direction);
+    if (n_l <= 0) continue;
+    // GGX, Smith's term over 4 n·l n·v, and n·l; a white metal's Fresnel term is 1.
+    const glm::dvec3 half = light.direction + eye;
+    const double n_h_squared = (n_l + n_v) * (n_l + n_v) / glm::dot(half, half);
+    const double t = n_h_squared * (a2 - 1) + 1;
+    sum += light.luminance * light.solid_angle * n_l / (t * t * smith(n_l));
+  }
+  sum *= a2 / (kPi * smith(n_v));
+  squares.add(map.look_up(roughness, axes.z * n_v - axes.x * across) * (entry.scale + entry.bias), sum);
 }
 
 }  // namespace
@@ -141,6 +156,7 @@ Result<std::vector<SplitSumError>> measure_split_sum(const LayeredImage& environ
                                          texels);
   const TaskPool pool(threads);
   const MapReader map(image::make_environment_map(source, pool, best_instruction_set(), {}).mirrored);
+  const std::vector<LightSample> lights = sample_all_around(source);
   std::vector<SplitSumError> errors(kRoughness.size() * kCosines.size());
   pool.for_each(errors.size(), [&](std::size_t i, int) {
     SplitSumError& error = errors[i];
@@ -151,8 +167,8 @@ Result<std::vector<SplitSumError>> measure_split_sum(const LayeredImage& environ
     Squares split_sum, prefilter;
     for (int view = 0; view < kViews; ++view) {
       const glm::dvec3 direction = direction_number(view);
-      add_split_sum_error(source, map, error.roughness, error.n_v, entry, direction, split_sum);
-      if (i % kCosines.size() == 0) add_prefilter_error(source, map, error.roughness, direction, prefilter);
+      add_split_sum_error(lights, map, error.roughness, error.n_v, entry, direction, split_sum);
+      if (i % kCosines.size() == 0) add_prefilter_error(lights, map, error.roughness, direction, prefilter);
     }
     error.split_sum = split_sum.relative();
     error.prefilter = prefilter.relative();

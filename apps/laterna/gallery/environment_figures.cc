@@ -136,7 +136,8 @@ void draw_parallax(Sitting& sitting) {
   const int mirror = add_material(scene, "mirror", glm::vec3(1), -1, 0);
   scene.materials.back().metallic = 1;
   add_object(scene, "ball", ball({1.2F, 0.9F, -2}, 0.9F), mirror);
-  // The mirror alone is to be lit by it: the room has its light already.
+  // The mirror alone is to be lit, and by it alone: the room shows its colours.
+  scene.ambient = glm::vec3(0);
   scene.environment.emplace();
   scene.environment->picture = add_picture(scene, "probe", *probe);
   scene.environment->center_ws = kMiddle;
