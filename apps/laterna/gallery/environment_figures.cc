@@ -66,8 +66,9 @@ void draw_specular(Sitting& sitting) {
       balls(1, {0.95F, 0.93F, 0.88F}));
   sitting.picture("Glazed red: mirrored above, diffuse beneath.", balls(0, {0.55F, 0.08F, 0.06F}));
   sitting.picture(
-      "White metal where the environment is 1 everywhere, before a darker copy of it: every ball is as "
-      "bright as what surrounds it, whatever its roughness.",
+      "White metal in light of 0.6 from everywhere, before a darker background: each ball sends back all "
+      "that falls on "
+      "it, whatever its roughness.",
       [] {
         Shot shot = balls(1, glm::vec3(1));
         shot.scene.pictures.back().pixels =
