@@ -29,8 +29,8 @@ struct Options {
 };
 
 std::vector<Chapter> all_chapters() {
-  return {segal_1992_chapter(), chen_tung_chapter(), mit_lecture_20_chapter(),
-          wikipedia_chapter(),  bentley_chapter(),   later_chapter()};
+  return {segal_1992_chapter(), chen_tung_chapter(),   mit_lecture_20_chapter(), wikipedia_chapter(),
+          bentley_chapter(),    environment_chapter(), later_chapter()};
 }
 
 int list_figures() {

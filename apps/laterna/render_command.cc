@@ -242,6 +242,7 @@ class RenderCommand {
     Result<Renderer> renderer = options_.scene.make_renderer(
         [&](Scene& scene) {
           if (*background) scene.background = *background;
+          if (scene.environment && options_.background == "transparent") scene.environment->visible = false;
         },
         outputs->front().seconds);
     if (!renderer) return report(renderer.error());

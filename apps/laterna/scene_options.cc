@@ -5,11 +5,42 @@
 #include <CLI/Validators.hpp>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 #include "outcome.h"
+#include "progress_line.h"
 
 namespace laterna::app {
+
+namespace {
+
+// What a rig says of its environment stays, but for the picture.
+void add_environment(Scene& scene, const std::string& file) {
+  Environment environment = scene.environment.value_or(Environment());
+  environment.picture = static_cast<int>(scene.pictures.size());
+  environment.chart.reset();
+  environment.specular_pictures.clear();
+  environment.irradiance.reset();
+  scene.environment = environment;
+  Picture picture;
+  picture.file = file;
+  picture.name = file;
+  scene.pictures.push_back(std::move(picture));
+}
+
+// By the XDG base directory specification; empty where there is no home.
+std::filesystem::path environment_cache() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  const bool has_cache = cache != nullptr && *cache == '/';
+  if (!has_cache && (home == nullptr || *home == '\0')) return {};
+  const std::filesystem::path base =
+      has_cache ? std::filesystem::path(cache) : std::filesystem::path(home) / ".cache";
+  return base / "laterna" / "environments";
+}
+
+}  // namespace
 
 Error bad_option(std::string message) { return {Failure::bad_usage, Diagnostic{{}, {}, std::move(message)}}; }
 
@@ -19,6 +50,8 @@ void SceneOptions::declare_scene(CLI::App& command) {
       .add_option("--rig", rigs,
                   "JSON with cameras, lights and projectors by name; may be given several times")
       ->allow_extra_args(false);
+  command.add_option("--environment", environment,
+                     "picture of all directions that lights the scene and stands behind it, such as sky.hdr");
   command.add_option("--up", up, "which axis points up in formats that do not say")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
@@ -34,6 +67,8 @@ void SceneOptions::declare_scene(CLI::App& command) {
 void SceneOptions::declare_machine(CLI::App& command) {
   command.add_option("--threads", threads, "0: one per processor; the picture is the same for any number")
       ->capture_default_str();
+  command.add_flag("--no-cache", no_cache,
+                   "do not keep what was worked out from environments, nor use what was kept");
   command.add_option("--isa", instruction_set,
                      "instruction set: scalar, sse4, avx2, avx512 or neon; the picture is the same");
 }
@@ -51,6 +86,7 @@ Result<Scene> SceneOptions::load() const {
   options.rigs.assign(rigs.begin(), rigs.end());
   Result<Scene> scene = load_scene({files.begin(), files.end()}, options);
   if (!scene) return scene;
+  if (!environment.empty()) add_environment(*scene, environment);
   report_warnings(scene->warnings);
   if (clip.empty()) return scene;
   const Result<void> chosen = choose_clip(*scene, clip);
@@ -61,6 +97,8 @@ Result<Scene> SceneOptions::load() const {
 Result<RendererOptions> SceneOptions::renderer_options() const {
   RendererOptions options;
   options.threads = threads;
+  if (!no_cache) options.environment_cache = environment_cache();
+  options.environment_progress = progress_line("filtering the environment");
   if (instruction_set.empty()) return options;
   options.instruction_set = instruction_set_named(instruction_set);
   if (!options.instruction_set) {

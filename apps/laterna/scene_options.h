@@ -19,10 +19,12 @@ struct SceneOptions {
   std::string clip;
   int threads = 0;
   std::string instruction_set;
+  std::string environment;
+  bool no_cache = false;
 
-  /// SCENE..., --rig, --up, --unit, --clip.
+  /// SCENE..., --rig, --environment, --up, --unit, --clip.
   void declare_scene(CLI::App& command);
-  /// --threads, --isa.
+  /// --threads, --isa, --no-cache.
   void declare_machine(CLI::App& command);
 
   [[nodiscard]] double metres_per_unit() const;  ///< of --unit

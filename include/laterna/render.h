@@ -2,6 +2,7 @@
 // and what it gives depends on neither the number of threads nor the instruction set.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -22,7 +23,9 @@ namespace laterna {
 
 /// Groups of channels beside beauty; list_layers() describes them.
 enum class Layer : std::uint8_t {
-  light,       ///< ambient.R/G/B and light.<name>.R/G/B; beauty is their sum in this order, bit for bit
+  /// ambient.R/G/B, light.<name>.R/G/B and, where there is one, environment.R/G/B; beauty is their sum in this order, bit
+  /// for bit
+  light,
   visibility,  ///< visibility.<name>: the fraction α of the light that arrives
   uv,          ///< uv.<name>.u/.v: slide coordinates of projectors, NaN outside the frame
   lux,         ///< lux.Y: direct illuminance of the surface in lux
@@ -142,10 +145,17 @@ struct PosingStatistics {
   std::uint64_t vertices_posed = 0;
 };
 
+/// How much RendererOptions::environment_cache holds at most; what was not used for longest goes first.
+inline constexpr std::uint64_t kEnvironmentCacheBytes = std::uint64_t{1} << 30;
+
 struct RendererOptions {
   int threads = 0;                                ///< 0: one per processor
   std::optional<InstructionSet> instruction_set;  ///< unset: the best this machine has
   double time = 0;                                ///< scene time in seconds: see Renderer::set_time
+  /// A folder in which what was worked out from environments is kept from run to run; empty: nowhere. At most
+  /// kEnvironmentCacheBytes; what cannot be read or written there is worked out anew.
+  std::filesystem::path environment_cache = {};
+  Progress environment_progress = {};  ///< of working out the environment; what it returns is not looked at
 };
 
 /// A shadow map, as seen by its light.

@@ -18,6 +18,7 @@
 
 #include "laterna/animation.h"
 #include "laterna/blend.h"
+#include "laterna/environment.h"
 #include "laterna/film.h"
 #include "laterna/image.h"
 #include "laterna/lens.h"
@@ -272,6 +273,36 @@ struct PhongHighlight {
   float shininess = 32;
 };
 
+// ---------------------------------------------------------------------------------------------- environment
+
+/// How far away what an environment shows is taken to be, when surfaces mirror it.
+enum class EnvironmentDistance : std::uint8_t {
+  infinite,  ///< the reflected direction alone decides (row 63)
+  box,       ///< on the walls of a box: a probe of a room
+  sphere,    ///< on a sphere
+};
+
+/// Light from all around: a picture of every direction. What it shows has the units of Scene::ambient, radiance: a white
+/// matt surface in an environment of 1 everywhere is 1, in every model. Exactly one of `picture` and `specular_pictures`.
+struct Environment {
+  int picture = -1;  ///< index into Scene::pictures; linear where the file is HDR, EXR or PFM, else sRGB
+  std::optional<EnvironmentChart> chart;  ///< of `picture`; unset: told from its shape
+  /// EXT_lights_image_based: cube faces +X −X +Y −Y +Z −Z, as seen from inside, prefiltered for roughness 0 … 1 in equal
+  /// steps; PNG with alpha is RGBD.
+  std::vector<std::array<int, 6>> specular_pictures;
+  /// Irradiance by spherical harmonics: L₀₀, L₁₋₁, L₁₀, L₁₁, L₂₋₂, L₂₋₁, L₂₀, L₂₁, L₂₂ in the basis of Ramamoorthi &
+  /// Hanrahan 2001, each times its A_l. Unset: found from the picture.
+  std::optional<std::array<glm::dvec3, 9>> irradiance;
+  double intensity = 1;                    ///< factor on what the picture holds, not negative
+  glm::dmat3 world_from_environment{1.0};  ///< a rotation
+  bool visible = true;                     ///< behind the scene, over Scene::background
+  EnvironmentDistance distance = EnvironmentDistance::infinite;
+  glm::dvec3 center_ws{0};  ///< box, sphere: where the picture was taken from
+  glm::dvec3 box_low_ws{-1},
+      box_high_ws{1};  ///< box: its corners, along the world's axes; `center_ws` lies within
+  double radius = 1;   ///< sphere: metres about `center_ws`
+};
+
 struct Scene {
   std::vector<Picture> pictures;
   std::vector<Material> materials;
@@ -283,6 +314,7 @@ struct Scene {
   bool ambient_is_set = false;  ///< by a rig; otherwise the renderer may choose one for a scene without light
   std::optional<glm::vec3> background;  ///< linear radiance; unset: black, alpha 0
   std::optional<PhongHighlight> phong;
+  std::optional<Environment> environment;
   std::vector<Photograph> photographs;  ///< where there are any, surfaces show their colours
   PhotographSettings photograph_settings;
   std::vector<Skin> skins;

@@ -35,6 +35,12 @@ double sample_number(SampleIndex sample, SampleDimension dimension) {
   return x - std::floor(x);
 }
 
+LatticePoint lattice_point(SampleIndex sample) {
+  constexpr double kGoldenStep = 0.61803398874989485;
+  const double turns = sample.index * kGoldenStep;
+  return {(sample.index + 0.5) / sample.count, turns - std::floor(turns)};
+}
+
 int sample_field(SampleIndex sample) {
   int step = std::max(1, static_cast<int>(kPlasticStepSquared * sample.count));
   while (std::gcd(step, sample.count) != 1) ++step;

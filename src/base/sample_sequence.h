@@ -20,4 +20,12 @@ double sample_number(SampleIndex sample, SampleDimension dimension);
 /// All of 0 … count − 1, each once, for numbers that are to lie in `count` equal fields exactly; spread likewise.
 int sample_field(SampleIndex sample);
 
+/// A point of the unit square.
+struct LatticePoint {
+  double u, v;
+};
+/// Of `count` points that fill the square evenly, where all of them are used: the Fibonacci lattice, (i + ½) / count and the
+/// fraction of i golden ratios.
+LatticePoint lattice_point(SampleIndex sample);
+
 }  // namespace laterna

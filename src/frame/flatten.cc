@@ -287,6 +287,7 @@ void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
   lay_out(placed, frame);
   pool.for_each(placed.size(), [&](std::size_t i, int) { PartWriter(placed[i], frame).write(); });
   frame.bounds = bounds_of(frame.clusters);
+  frame.has_environment = scene.environment.has_value();
   frame.has_blending = std::any_of(frame.clusters.begin(), frame.clusters.end(),
                                    [](const Cluster& c) { return (c.flags & kAlphaBlend) != 0; });
   frame.has_blended_casters = std::any_of(frame.clusters.begin(), frame.clusters.end(), is_blended_caster);

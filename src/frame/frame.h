@@ -160,6 +160,7 @@ class Frame {
   bool has_blending = false;
   bool has_blended_casters = false;
   bool all_receive_shadows = true;
+  bool has_environment = false;
   std::shared_ptr<const TextureLibrary> textures;
 };
 

@@ -6,8 +6,8 @@
 #include <set>
 #include <system_error>
 
+#include "frame/decode_picture.h"
 #include "image/film.h"
-#include "image/finite_values.h"
 
 namespace laterna::frame {
 namespace {
@@ -40,11 +40,6 @@ std::set<Request> requests(const Scene& scene) {
   return all;
 }
 
-Result<Image> decode(const Picture& picture) {
-  if (!picture.encoded.empty()) return decode_image(picture.encoded, picture.name);
-  return read_image(picture.file);
-}
-
 // How long decoding takes goes with this; 0 where nothing has to be decoded, or nothing can be.
 std::uintmax_t encoded_bytes(const Picture& picture) {
   if (picture.pixels != nullptr) return 0;
@@ -52,10 +47,6 @@ std::uintmax_t encoded_bytes(const Picture& picture) {
   std::error_code ignored;
   const std::uintmax_t size = std::filesystem::file_size(picture.file, ignored);
   return ignored ? 0 : size;
-}
-
-std::string name_of(const Picture& picture) {
-  return picture.name.empty() ? picture.file.string() : picture.name;
 }
 
 }  // namespace
@@ -100,23 +91,14 @@ void TextureLoading::run(std::size_t task) {
     open_film(used, picture);
     return;
   }
-  Result<Image> decoded;
-  const Image* pixels = picture.pixels.get();
-  if (pixels == nullptr) {
-    decoded = decode(picture);
-    if (!decoded) {
-      used.faults = std::move(decoded.error().diagnostics);
-      return;
-    }
-    pixels = &*decoded;
-  }
-  if (auto fault = image::find_not_finite(*pixels, name_of(picture))) {
-    used.faults.push_back(std::move(*fault));
+  Result<std::shared_ptr<const Image>> pixels = decode_picture(picture);
+  if (!pixels) {
+    used.faults = std::move(pixels.error().diagnostics);
     return;
   }
   for (const image::MipUse use : used.uses) {
     library_.chains_.at({used.index, use}) =
-        std::make_unique<image::MipChain>(image::make_mip_chain(*pixels, use, set_));
+        std::make_unique<image::MipChain>(image::make_mip_chain(**pixels, use, set_));
   }
 }
 

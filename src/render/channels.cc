@@ -9,8 +9,8 @@ namespace laterna {
 namespace {
 
 constexpr std::array<LayerDescription, 13> kLayers = {{
-    {Layer::light, "light", "ambient.R/G/B, light.<name>.R/G/B",
-     "ambient and each light by itself; their sum is the picture"},
+    {Layer::light, "light", "ambient.R/G/B, light.<name>.R/G/B, environment.R/G/B",
+     "ambient, each light and the environment by itself; their sum is the picture"},
     {Layer::visibility, "visibility", "visibility.<name>",
      "fraction of each light that arrives, 0 in shadow"},
     {Layer::uv, "uv", "uv.<name>.u/.v", "slide coordinates of each projector, NaN outside its frame"},
@@ -98,6 +98,10 @@ void add_lights(ChannelList& list, const RenderSettings& settings, const frame::
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
       list.add_color("light." + frame.lights[i].light->name + ".", kRgb,
                      [i](const TileResult& t) -> const TileColor& { return t.radiance[i + 1]; });
+    }
+    if (frame.has_environment) {
+      list.add_color("environment.", kRgb,
+                     [](const TileResult& t) -> const TileColor& { return t.radiance.back(); });
     }
   }
   if (has_layer(settings, Layer::visibility)) {

@@ -15,6 +15,7 @@
 #include "render/camera_views.h"
 #include "render/cost_sum.h"
 #include "render/depth_map_cache.h"
+#include "render/environment.h"
 #include "render/metadata.h"
 #include "render/open_sheets.h"
 #include "render/photograph_feathers.h"
@@ -101,6 +102,17 @@ struct Renderer::Implementation {
     textures = std::make_shared<frame::TextureLibrary>(std::move(*library));
     meshes = clusters.take();
     return rebuild();
+  }
+
+  // What shines from all around; nothing where nothing does.
+  Result<void> load_environment(const RendererOptions& options) {
+    if (!scene.environment) return {};
+    Result<image::EnvironmentMap> map = render::prepare_environment(
+        scene, pool, set, options.environment_cache, options.environment_progress);
+    if (!map) return tl::unexpected(std::move(map.error()));
+    environment = std::make_unique<const image::EnvironmentMap>(std::move(*map));
+    split_sum = std::make_unique<const shade::SplitSum>(shade::make_split_sum(pool));
+    return {};
   }
 
   // The frame anew, because what casts shadows has moved.
@@ -259,7 +271,10 @@ struct Renderer::Implementation {
     job.anisotropy = settings.anisotropy;
     job.samples_per_pixel = settings.samples;
     job.passes = settings.passes;
-    job.background = scene.background ? &*scene.background : nullptr;
+    if (environment != nullptr)
+      job.environment.emplace(*scene.environment, *environment, *split_sum, scene.phong);
+    const bool is_hidden = job.environment && job.environment->is_visible;
+    job.background = scene.background && !is_hidden ? &*scene.background : nullptr;
     job.wanted = render::wanted_layers(settings);
     job.instruction_set = set;
     const raster::RasterView::Ray ray = view.homogeneous_ray();
@@ -334,6 +349,8 @@ struct Renderer::Implementation {
   std::shared_ptr<frame::TextureLibrary> textures;
   frame::ClusteredMeshes meshes;
   frame::Frame frame;
+  std::unique_ptr<const image::EnvironmentMap> environment;
+  std::unique_ptr<const shade::SplitSum> split_sum;
   std::uint64_t casters_revision = 0;
   mutable BinsPool bins;
   mutable render::DepthMapCache maps;
@@ -364,6 +381,8 @@ Result<Renderer> Renderer::create(Scene scene, const RendererOptions& options) {
     render::warn_of_open_sheets(scene);
     auto implementation = std::make_unique<Implementation>(std::move(scene), options);
     if (Result<void> built = implementation->load(); !built) return tl::unexpected(std::move(built.error()));
+    if (Result<void> lit = implementation->load_environment(options); !lit)
+      return tl::unexpected(std::move(lit.error()));
     const std::vector<Diagnostic>& warnings = implementation->textures->warnings();
     std::vector<Diagnostic>& told = implementation->scene.warnings;
     told.insert(told.end(), warnings.begin(), warnings.end());

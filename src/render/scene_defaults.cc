@@ -19,7 +19,7 @@ void add_default_light(Scene& scene) {
     return n.light >= 0 && (scene.lights[static_cast<std::size_t>(n.light)].enabled ||
                             std::find(decals.begin(), decals.end(), n.light) == decals.end());
   });
-  if (has_light || scene.ambient_is_set) return;
+  if (has_light || scene.ambient_is_set || scene.environment) return;
   if (!scene.photographs.empty() && !scene.photograph_settings.are_lit) return;  // they need no light
   Light sun;
   sun.name = "default sun";

@@ -13,8 +13,9 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 16> kRead = {
+constexpr std::array<std::string_view, 17> kRead = {
     "EXT_lights_ies",
+    "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "KHR_animation_pointer",
@@ -37,7 +38,7 @@ struct LookChanger {
   std::string_view name, what;
 };
 
-constexpr std::array<LookChanger, 20> kChangeTheLook = {{
+constexpr std::array<LookChanger, 19> kChangeTheLook = {{
     {"KHR_materials_transmission", "see-through materials look opaque"},
     {"KHR_materials_volume", "see-through materials look opaque"},
     {"KHR_materials_diffuse_transmission", "thin materials let no light through"},
@@ -54,7 +55,6 @@ constexpr std::array<LookChanger, 20> kChangeTheLook = {{
     {"EXT_texture_webp", "textures fall back on their PNG or JPEG, where there is one"},
     {"EXT_texture_avif", "textures fall back on their PNG or JPEG, where there is one"},
     {"MSFT_texture_dds", "textures fall back on their PNG or JPEG, where there is one"},
-    {"EXT_lights_image_based", "the environment light is left out"},
     {"KHR_lights_image_based", "the environment light is left out"},
     {"KHR_node_visibility", "hidden nodes are shown"},
     {"KHR_materials_common", "materials have their standard look"},

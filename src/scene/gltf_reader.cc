@@ -9,6 +9,7 @@
 #include "scene/gltf_animations.h"
 #include "scene/gltf_buffers.h"
 #include "scene/gltf_container.h"
+#include "scene/gltf_environment.h"
 #include "scene/gltf_extension.h"
 #include "scene/gltf_lamps.h"
 #include "scene/gltf_lights.h"
@@ -214,6 +215,7 @@ Result<Scene> read_document(const JsonDocument& json, const Container& container
   Animations animations(json, accessors, faults);
   SceneBuilder builder(json, {meshes, accessors, lamps, light_extensions, skins, animations}, faults);
   for (const PlacedNode& node : placed) builder.add(node);
+  std::optional<Environment> environment = read_environment(json, textures, faults);
   if (faults.has_errors()) return failure(faults);
   Scene scene = builder.take();
   scene.meshes = meshes.take();
@@ -224,6 +226,7 @@ Result<Scene> read_document(const JsonDocument& json, const Container& container
   if (faults.has_errors()) return failure(faults);
   scene.materials = materials.take();
   scene.pictures = textures.take_pictures();
+  scene.environment = std::move(environment);
   scene.warnings = faults.warnings();
   return scene;
 }

@@ -29,6 +29,11 @@ class Textures {
   int add(Picture picture) { return keep(std::move(picture)); }
   [[nodiscard]] const Picture& at(int picture) const { return pictures_[static_cast<std::size_t>(picture)]; }
 
+  /// The picture of images[image], for what is no texture; −1 when it is faulty. `used_by`: for the message about a missing
+  /// file. 0 ≤ image < image_count().
+  int picture_of(int image, const std::string& used_by);
+  [[nodiscard]] std::size_t image_count() const { return images_.size(); }
+
   /// The pictures in use, in the order of first use; Texture::picture counts into them.
   std::vector<Picture> take_pictures() { return std::move(pictures_); }
 
@@ -40,7 +45,6 @@ class Textures {
 
   Sampler parse_sampler(const JsonValue& value);
   Source parse_texture(const JsonValue& value);
-  int picture_of(int image, const std::string& used_by);
   int make_picture(const JsonValue& image, const std::string& used_by);
   int picture_from_view(JsonObject& image);
   int picture_from_uri(JsonObject& image, const std::string& used_by);

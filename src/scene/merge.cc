@@ -133,6 +133,13 @@ MergedIndices SceneMerger::add(Scene scene, const std::string& file) {
   }
   if (scene.background) merged_.background = scene.background;
   if (scene.phong) merged_.phong = scene.phong;
+  if (scene.environment) {
+    merged_.environment = std::move(scene.environment);
+    remap_picture(merged_.environment->picture, picture);
+    for (std::array<int, 6>& faces : merged_.environment->specular_pictures) {
+      for (int& face : faces) remap_picture(face, picture);
+    }
+  }
   return {picture, first_light};
 }
 

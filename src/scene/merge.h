@@ -31,7 +31,7 @@ struct MergedIndices {
 class SceneMerger {
  public:
   /// Appends a scene. Pictures from the same file become one; cameras and lights whose name is taken are
-  /// renamed ("sun.2") with a warning; ambient, background and highlight of a later scene win where it has them.
+  /// renamed ("sun.2") with a warning; ambient, background, highlight and environment of a later scene win where it has them.
   MergedIndices add(Scene scene, const std::string& file);
 
   /// Changes nodes of all scenes added so far; nodes without that name are also found by their mesh's name.

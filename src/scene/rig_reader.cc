@@ -5,6 +5,7 @@
 #include "scene/fault_list.h"
 #include "scene/json_document.h"
 #include "scene/json_object.h"
+#include "scene/rig_environment.h"
 #include "scene/rig_frustum.h"
 #include "scene/rig_lights.h"
 #include "scene/rig_path.h"
@@ -55,6 +56,8 @@ class RigReader {
   Rig read() {
     JsonObject root(json_, json_.root(), faults_);
     read_scene_settings(json_, root, faults_, rig_.scene);
+    if (const JsonValue* value = root.object("environment"))
+      rig_.scene.environment = read_rig_environment(json_, *value, folder_, rig_.scene.pictures, faults_);
     if (const JsonValue* cameras = root.array("cameras")) {
       for (const JsonValue& value : cameras->children) read_camera(value);
     }

@@ -17,7 +17,7 @@ namespace laterna::shade {
 
 /// What is wanted besides beauty.
 struct WantedLayers {
-  bool lights = false;      // ambient and one per light
+  bool lights = false;      // ambient, one per light, the environment
   bool visibility = false;  // per light
   bool slide_uv = false;    // per projector
   bool lux = false;
@@ -38,7 +38,8 @@ struct TileColor {
 struct TileResult {
   TileColor beauty;
   TilePlane alpha;
-  std::vector<TileColor> radiance;    // wanted.lights: ambient, then one per light
+  std::vector<TileColor>
+      radiance;  // wanted.lights: ambient, one per light, the environment where there is one
   std::vector<TilePlane> visibility;  // wanted.visibility: per light
   std::vector<TilePlane> slide_s, slide_t;
   std::vector<TileColor> pass_colors;  // wanted.passes: after ambient, then after each light

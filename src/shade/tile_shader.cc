@@ -61,6 +61,9 @@ class TileShader::Worker {
         find_irradiance_(find_irradiance_for(job.instruction_set)),
         find_ambient_(find_ambient_for(job.instruction_set)),
         reflect_(reflect_for(job.instruction_set)),
+        reflect_environment_(reflect_environment_for(job.instruction_set)),
+        show_environment_(show_environment_for(job.instruction_set)),
+        pixel_rays_(*job.view),
         fill_from_blocks_(fill_from_blocks_for(job.instruction_set)),
         find_bounds_(find_bounds_for(job.instruction_set)),
         scatter_radiance_(scatter_radiance_for(job.instruction_set)),
@@ -144,7 +147,7 @@ class TileShader::Worker {
 
   void shade_sample() {
     const bool has_planes = keeps_planes();
-    planes_.resize(has_planes ? job_.lights.size() + 1 : 0);
+    planes_.resize(has_planes ? job_.lights.size() + (job_.environment ? 2 : 1) : 0);
     const std::span<TileColor> planes = has_planes ? std::span(planes_) : std::span(&result_.beauty, 1);
     const glm::vec3 background = job_.background != nullptr ? *job_.background : glm::vec3(0);
     std::vector<ColorTarget> targets;
@@ -157,8 +160,9 @@ class TileShader::Worker {
     if (job_.passes == Passes::multi) {
       shade_in_passes(targets);
     } else {
-      shade_visible(targets, {true, 0, job_.lights.size()});
+      shade_visible(targets, everything());
     }
+    if (shows_environment()) show_environment(targets.back());
     find_coverage();
     if (!fragments_.is_empty()) blend_fragments();
     accumulate(has_planes);
@@ -170,11 +174,15 @@ class TileShader::Worker {
     return {*job_.frame, *job_.view, tile_x_, tile_y_, offset.x, offset.y};
   }
 
-  // What of the illumination is found: ambient light, and a range of the lights.
+  // What of the illumination is found: ambient light, a range of the lights, the environment where there is one.
   struct Part {
     bool ambient;
     std::size_t first_light, end_light;
+    bool environment;
   };
+  [[nodiscard]] Part everything() const {
+    return {true, 0, job_.lights.size(), job_.environment.has_value()};
+  }
 
   void shade_visible(std::span<const ColorTarget> targets, const Part& part) {
     for_each_visible_batch([&](const frame::Surface& surface) { shade_batch(surface, targets, part, true); });
@@ -232,14 +240,15 @@ class TileShader::Worker {
   // its own layer.)
   void shade_in_passes(std::span<const ColorTarget> targets) {
     lay_in_passes();
-    shade_visible(targets, {true, 0, 0});
+    shade_visible(targets, {true, 0, 0, false});
     keep_pass(0);
     for (std::size_t light = 0; light < job_.lights.size(); ++light) {
       scan_convert_again();
       start_illumination_pass(light);
-      shade_visible(targets, {false, light, light + 1});
+      shade_visible(targets, {false, light, light + 1, false});
       keep_pass(light + 1);
     }
+    if (job_.environment) shade_visible(targets, {false, 0, 0, true});
   }
 
   // The triangles whose depth equals z_p: at equal depth any triangle beats none.
@@ -279,7 +288,8 @@ class TileShader::Worker {
 
   // -------------------------------------------------------------------------------------------- one batch of samples
 
-  // All samples of samples_, which lie on one surface. One target takes the sum, more take ambient and each light.
+  // All samples of samples_, which lie on one surface. One target takes the sum; more take ambient, each light and the
+  // environment.
   void shade_batch(const frame::Surface& surface, std::span<const ColorTarget> targets, const Part& part,
                    bool is_opaque) {
     const bool sums = targets.size() == 1;
@@ -317,6 +327,10 @@ class TileShader::Worker {
                *radiance_);
       if (!sums) scatter_radiance_(*samples_, *radiance_, targets[light + 1]);
     }
+    if (part.environment && !surface.unlit) {
+      reflect_environment_(*job_.environment, job_.reflection, *samples_, *points_, sums, *radiance_);
+      if (!sums) scatter_radiance_(*samples_, *radiance_, targets.back());
+    }
     if (sums) scatter_radiance_(*samples_, *radiance_, targets[0]);
     end_stage(Stage::light);
   }
@@ -350,6 +364,33 @@ class TileShader::Worker {
       drawing_ms += layer_painter_->paint(layer, *samples_, *points_);
     map_ms_ += drawing_ms;
     end_stage(Stage::surface, drawing_ms);
+  }
+
+  // -------------------------------------------------------------------------------------------- environment
+
+  [[nodiscard]] bool shows_environment() const { return job_.environment && job_.environment->is_visible; }
+
+  // Where nothing is before it.
+  void show_environment(const ColorTarget& target) {
+    const TileOrigin from = origin();
+    for (std::size_t block = 0; block < kTilePixels / kGroupSize; ++block) {
+      const std::size_t first = block * kGroupSize;
+      const TriangleId* ids = ids_.data() + first;
+      if (std::all_of(ids, ids + kGroupSize, [](TriangleId id) { return id != kNoTriangle; })) continue;
+      const auto column = block % raster::kBlocksPerSide, row = block / raster::kBlocksPerSide;
+      alignas(64) float x[kGroupSize], y[kGroupSize], r[kGroupSize], g[kGroupSize], b[kGroupSize];
+      for (std::size_t i = 0; i < kGroupSize; ++i) {
+        x[i] = from.x + static_cast<float>(column * 4 + (i & 3U));
+        y[i] = from.y + static_cast<float>(row * 4 + (i >> 2U));
+      }
+      show_environment_(*job_.environment, pixel_rays_, x, y, r, g, b);
+      for (std::size_t i = 0; i < kGroupSize; ++i) {
+        if (ids[i] != kNoTriangle) continue;
+        target.r[first + i] = r[i];
+        target.g[first + i] = g[i];
+        target.b[first + i] = b[i];
+      }
+    }
   }
 
   // Base colours from photographs.
@@ -435,7 +476,7 @@ class TileShader::Worker {
       for (std::size_t first = 0; first < run.fragments.size(); first += shadow::kMaxSamples) {
         const std::size_t size = std::min(shadow::kMaxSamples, run.fragments.size() - first);
         fill_from_fragments(origin(), fragments_.list(), run.fragments.subspan(first, size), *samples_);
-        shade_batch(job_.frame->surfaces[run.surface], targets, {true, 0, job_.lights.size()}, false);
+        shade_batch(job_.frame->surfaces[run.surface], targets, everything(), false);
         scatter(*samples_, points_->alpha.data(), alpha);
       }
     }
@@ -455,8 +496,9 @@ class TileShader::Worker {
   // -------------------------------------------------------------------------------------------- layers
 
   void find_coverage() {
+    const bool is_all_covered = job_.background != nullptr || shows_environment();
     for (std::size_t i = 0; i < kTilePixels; ++i)
-      coverage_[i] = ids_[i] == kNoTriangle && !job_.background ? 0.0F : 1.0F;
+      coverage_[i] = ids_[i] == kNoTriangle && !is_all_covered ? 0.0F : 1.0F;
   }
 
   // Layers that measure show what arrives; the papers' frame buffer is a picture, and shows what is `seen` to.
@@ -518,6 +560,9 @@ class TileShader::Worker {
   FindIrradiance find_irradiance_;
   FindAmbient find_ambient_;
   Reflect reflect_;
+  ReflectEnvironment reflect_environment_;
+  ShowEnvironment show_environment_;
+  PixelRays pixel_rays_;
   FillFromBlocks fill_from_blocks_;
   FindBounds find_bounds_;
   ScatterRadiance scatter_radiance_;

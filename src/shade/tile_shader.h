@@ -9,6 +9,7 @@
 
 #include "laterna/stages.h"
 #include "raster/tile_raster.h"
+#include "shade/environment_light.h"
 #include "shade/illumination.h"
 #include "shade/layer_painter.h"
 #include "shade/light_reach.h"
@@ -46,7 +47,8 @@ struct ShaderJob {
   std::span<const raster::Batch> batches;
   std::vector<ShaderLight> lights;
   PhotographJob photographs;
-  std::vector<ShaderDecal> decals;          // the frame's
+  std::vector<ShaderDecal> decals;  // the frame's
+  std::optional<EnvironmentLight> environment;
   std::vector<BoundLight> physical_lights;  // for lux where the model is not physical; otherwise empty
   ReflectionSettings reflection;
   Interpolation interpolation = Interpolation::perspective;

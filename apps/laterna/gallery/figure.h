@@ -32,6 +32,7 @@ Chapter chen_tung_chapter();
 Chapter mit_lecture_20_chapter();
 Chapter wikipedia_chapter();
 Chapter bentley_chapter();
+Chapter environment_chapter();
 Chapter later_chapter();
 
 /// A picture of a figure, once it is drawn.

@@ -1,0 +1,262 @@
+// Environments in scenes and pictures: layers, light meters, rigs, glTF, the cache, probes.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <glm/geometric.hpp>
+
+#include "image/environment_cache.h"
+#include "laterna/environment_probe.h"
+#include "reference/shapes.h"
+#include "unit/gltf_builder.h"
+
+namespace laterna {
+namespace {
+
+using namespace reference;
+using namespace testing_scenes;
+
+std::shared_ptr<const Image> plain_sky(glm::vec3 colour, int height = 4) {
+  auto sky = std::make_shared<Image>(2 * height, height, 3, PixelType::f32, Transfer::linear);
+  const auto values = sky->values<float>();
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = colour[static_cast<int>(i % 3)];
+  return sky;
+}
+
+Scene room_under(const std::shared_ptr<const Image>& sky) {
+  Scene scene;
+  add_object(scene, "floor", floor(4, -1), {0.5F, 0.6F, 0.7F});
+  add_object(scene, "ball", sphere({0, 0, 0}, 1, 24), {0.9F, 0.5F, 0.2F});
+  add_object(scene, "pane", wall(1, 1, 1.5F));
+  scene.materials[2].alpha_mode = AlphaMode::blend;
+  scene.materials[2].base_color.a = 0.4F;
+  Light lamp;
+  lamp.name = "lamp";
+  lamp.intensity = 20;
+  add_light(scene, lamp, {2, 4, 1}, {0, 0, 0});
+  scene.ambient = glm::vec3(0.1F);
+  scene.pictures.push_back({});
+  scene.pictures.back().pixels = sky;
+  scene.environment.emplace();
+  scene.environment->picture = 0;
+  return scene;
+}
+
+const View kView = look({1, 2, 6}, {0, 0, 0}, 45, 1);
+
+TEST(EnvironmentLayers, AddUpToThePictureBitForBit) {
+  const Renderer renderer = make_renderer(room_under(plain_sky({0.3F, 0.5F, 0.9F})));
+  for (const int samples : {1, 4}) {
+    for (const Passes passes : {Passes::single, Passes::multi}) {
+      for (const int accumulate : {1, 3}) {
+        if (passes == Passes::multi && accumulate > 1) continue;
+        RenderSettings settings = test_settings(48, 48);
+        settings.samples = samples;
+        settings.passes = passes;
+        settings.accumulate = accumulate;
+        const LayeredImage plain = render(renderer, kView, settings);
+        settings.layers = {Layer::light};
+        const LayeredImage image = render(renderer, kView, settings);
+        for (const std::string channel : {"R", "G", "B"}) {
+          EXPECT_EQ(plain.find(channel)->values, image.find(channel)->values);
+          for (int i = 0; i < 48 * 48; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const float sum = image.find("ambient." + channel)->values[k] +
+                              image.find("light.lamp." + channel)->values[k] +
+                              image.find("environment." + channel)->values[k];
+            ASSERT_EQ(image.find(channel)->values[k], sum);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(EnvironmentLayers, StandBehindTheScene) {
+  Scene scene = room_under(plain_sky({0.3F, 0.5F, 0.9F}));
+  scene.background = glm::vec3(7);
+  const View up = look({0, 3, 0}, {0, 9, 0.1}, 45, 1);
+  LayeredImage image = render(make_renderer(scene), up, test_settings(8, 8));
+  EXPECT_FLOAT_EQ(at(image, "B", 3, 3), 0.9F);
+  EXPECT_EQ(at(image, "A", 3, 3), 1);
+  scene.environment->visible = false;
+  image = render(make_renderer(scene), up, test_settings(8, 8));
+  EXPECT_EQ(at(image, "B", 3, 3), 7);
+  scene.background.reset();
+  image = render(make_renderer(scene), up, test_settings(8, 8));
+  EXPECT_EQ(at(image, "A", 3, 3), 0);
+}
+
+// Lux is of direct lights alone; without an environment nothing else changes.
+TEST(EnvironmentLayers, LightMetersLeaveItOut) {
+  Scene scene = room_under(plain_sky(glm::vec3(3)));
+  RenderSettings settings = test_settings(32, 32);
+  settings.layers = {Layer::lux, Layer::visibility};
+  const LayeredImage with = render(make_renderer(scene), kView, settings);
+  scene.environment.reset();
+  const LayeredImage without = render(make_renderer(scene), kView, settings);
+  EXPECT_EQ(with.find("lux.Y")->values, without.find("lux.Y")->values);
+  EXPECT_EQ(with.find("visibility.lamp")->values, without.find("visibility.lamp")->values);
+  EXPECT_EQ(without.find("environment.R"), nullptr);
+}
+
+TEST(EnvironmentFiles, RigsNameThem) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_image(*plain_sky(glm::vec3(1)), folder / "sky.hdr").has_value());
+  const Scene scene =
+      load_or_fail({folder.write("s.gltf", triangle_builder().text())},
+                   {.rigs = {folder.write(
+                        "r.json", R"({"environment": {"image": "sky.hdr", "chart": "latlong", "exposure": 1,
+         "rotation_deg": 90, "visible": false, "center": [1, 2, 3], "box": {"low": [0, 0, 0], "high": [4, 5, 6]}}})")}});
+  ASSERT_TRUE(scene.environment.has_value());
+  const Environment& e = *scene.environment;
+  EXPECT_EQ(e.chart, EnvironmentChart::latlong);
+  EXPECT_EQ(e.intensity, 2);
+  EXPECT_FALSE(e.visible);
+  EXPECT_EQ(e.distance, EnvironmentDistance::box);
+  EXPECT_EQ(e.center_ws, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(e.box_high_ws, glm::dvec3(4, 5, 6));
+  EXPECT_NEAR((e.world_from_environment * glm::dvec3(0, 0, -1)).x, -1, 1e-12);  // ahead goes to the left
+  EXPECT_EQ(scene.pictures[static_cast<std::size_t>(e.picture)].file.filename(), "sky.hdr");
+}
+
+// EXT_lights_image_based: faces as seen from inside, +X red at a glance to the right, mips for roughness.
+TEST(EnvironmentFiles, GltfImageBasedLight) {
+  const TemporaryFolder folder;
+  const glm::vec3 colours[6] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 1, 1}, {1, 0, 1}};
+  for (int face = 0; face < 6; ++face) {
+    Image image(4, 4, 4, PixelType::u8, Transfer::srgb);
+    for (std::size_t i = 0; i < 16; ++i) {
+      for (std::size_t k = 0; k < 3; ++k)
+        image.values<std::uint8_t>()[4 * i + k] = colours[face][static_cast<int>(k)] > 0 ? 255 : 0;
+      image.values<std::uint8_t>()[4 * i + 3] = 51;  // RGBD: divided by a fifth
+    }
+    ASSERT_TRUE(write_image(image, folder / ("face" + std::to_string(face) + ".png")).has_value());
+  }
+  json document = json::parse(triangle_builder().text());
+  document["images"] = json::array();
+  for (int face = 0; face < 6; ++face)
+    document["images"].push_back({{"uri", "face" + std::to_string(face) + ".png"}});
+  json light = {{"intensity", 0.5},
+                {"rotation", {0, 0, 0, 1}},
+                {"specularImageSize", 4},
+                {"specularImages", {{0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 4, 5}}},
+                {"irradianceCoefficients", json::array()}};
+  for (int i = 0; i < 9; ++i) light["irradianceCoefficients"].push_back({i == 0 ? 2 : 0, 0, 0});
+  document["extensions"]["EXT_lights_image_based"]["lights"] = json::array({light});
+  document["extensionsUsed"] = {"EXT_lights_image_based"};
+  document["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+  const Scene scene = load_or_fail({folder.write("ibl.gltf", document.dump())});
+  ASSERT_TRUE(scene.environment.has_value());
+  EXPECT_EQ(scene.environment->specular_pictures.size(), 2U);
+  EXPECT_EQ((*scene.environment->irradiance)[0], glm::dvec3(2, 0, 0));
+  EXPECT_EQ(warnings_of(scene), "");
+  const Renderer renderer = make_renderer(scene);
+  const glm::dvec3 axes[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (int face = 0; face < 6; ++face) {
+    const View view = look({0, 0, 9}, glm::dvec3(0, 0, 9) + axes[face], 10, 1, {0.1, 0.7, 0.7}, 10);
+    const LayeredImage image = render(renderer, view, test_settings(9, 9));
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(at(image, std::string(1, "RGB"[k]), 4, 4), colours[face][k] * 2.5F, 1e-5) << face;
+  }
+}
+
+TEST(EnvironmentCache, KeepsWhatIsWholeAndNothingElse) {
+  const TemporaryFolder folder;
+  const image::EnvironmentCache cache(folder / "kept", std::uint64_t{1} << 20);
+  image::EnvironmentMap map;
+  std::vector<glm::vec3> texels(64, glm::vec3(0.5F, 1, 2));
+  map.mirrored.set(map.mirrored.add_level(8), texels);
+  map.mirrored.add_level(4);
+  map.irradiance[3] = {1, 2, 3};
+  const image::ContentKey key = image::environment_key(EnvironmentChart::latlong, 8, 8, texels);
+  EXPECT_FALSE(cache.find(key).has_value());
+  cache.keep(key, map);
+  const auto found = cache.find(key);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(std::vector<float>(found->mirrored.g.begin(), found->mirrored.g.end()),
+            std::vector<float>(map.mirrored.g.begin(), map.mirrored.g.end()));
+  EXPECT_EQ(found->irradiance[3], glm::dvec3(1, 2, 3));
+  texels[5].x += 1e-6F;
+  EXPECT_FALSE(cache.find(image::environment_key(EnvironmentChart::latlong, 8, 8, texels)).has_value());
+  // Every truncation, and every byte changed, is as if nothing had been kept.
+  const std::filesystem::path file = folder / "kept" / (key.text() + ".environment");
+  std::ifstream in(file, std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), {});
+  const auto write = [&](const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; };
+  for (std::size_t length = 0; length < whole.size(); length += 7) {
+    write(whole.substr(0, length));
+    EXPECT_FALSE(cache.find(key).has_value()) << length;
+  }
+  for (std::size_t at_byte = 0; at_byte < whole.size(); at_byte += 11) {
+    std::string damaged = whole;
+    damaged[at_byte] = static_cast<char>(damaged[at_byte] ^ 4);
+    write(damaged);
+    EXPECT_FALSE(cache.find(key).has_value()) << at_byte;
+  }
+  write(whole);
+  EXPECT_TRUE(cache.find(key).has_value());
+}
+
+TEST(EnvironmentCache, StaysWithinItsSize) {
+  const TemporaryFolder folder;
+  image::EnvironmentMap map;
+  map.mirrored.add_level(16);  // 4 kB
+  const image::EnvironmentCache cache(folder.path(), 10000);
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    image::ContentKey key;
+    key.add(i);
+    cache.keep(key, map);
+    EXPECT_TRUE(cache.find(key).has_value());
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
+  const image::EnvironmentCache unwritable("/proc/nowhere", 10000);
+  unwritable.keep({}, map);
+  EXPECT_FALSE(unwritable.find({}).has_value());
+}
+
+// With the cache a scene looks the same.
+TEST(EnvironmentCache, ChangesNoPicture) {
+  const TemporaryFolder folder;
+  RendererOptions options;
+  options.environment_cache = folder.path();
+  int steps = 0;
+  options.environment_progress = [&](double) { return ++steps > 0; };
+  const auto picture = [&] {
+    const auto renderer = Renderer::create(room_under(plain_sky({1, 2, 3}, 8)), options);
+    return renderer ? render(*renderer, kView, test_settings(32, 32)).find("G")->values
+                    : std::vector<float>();
+  };
+  const std::vector<float> first = picture();
+  EXPECT_GT(std::exchange(steps, 0), 0);
+  EXPECT_EQ(picture(), first);
+  EXPECT_EQ(steps, 0);  // nothing was worked out again
+  EXPECT_FALSE(first.empty());
+}
+
+// What a point of a scene sees: a red wall at the right, a green one at the left, blue above, nothing elsewhere.
+TEST(EnvironmentProbeTest, LooksToAllSides) {
+  Scene scene;
+  add_object(scene, "right", box({5, 0, 0}, {0.1F, 9, 9}), {1, 0, 0});
+  add_object(scene, "left", box({-5, 0, 0}, {0.1F, 9, 9}), {0, 1, 0});
+  add_object(scene, "above", box({0, 5, 0}, {4, 0.1F, 4}), {0, 0, 1});
+  scene.ambient = glm::vec3(1);
+  scene.ambient_is_set = true;
+  const Renderer renderer = make_renderer(scene);
+  RenderSettings settings = test_settings(1, 1);
+  const auto cube = render_environment(renderer, {{0, 0, 0}, 16}, settings);
+  ASSERT_TRUE(cube.has_value());
+  const auto sky = convert_environment(*cube, {EnvironmentChart::cube, EnvironmentChart::latlong, 32, 1});
+  ASSERT_TRUE(sky.has_value());
+  const auto seen = [&](glm::dvec3 direction, const char* channel) {
+    const glm::dvec2 position = image_from_direction(EnvironmentChart::latlong, direction);
+    return at(*sky, channel, static_cast<int>(position.x * 63.99), static_cast<int>(position.y * 31.99));
+  };
+  EXPECT_NEAR(seen({1, 0, 0.1}, "R"), 1, 1e-3);
+  EXPECT_NEAR(seen({-1, 0, 0.1}, "G"), 1, 1e-3);
+  EXPECT_NEAR(seen({0.1, 1, 0}, "B"), 1, 1e-3);
+  EXPECT_NEAR(seen({0, -1, 0.1}, "R") + seen({0, -1, 0.1}, "G") + seen({0, -1, 0.1}, "B"), 0, 1e-3);
+  EXPECT_FALSE(render_environment(renderer, {{0, 0, 0}, 0}, settings).has_value());
+}
+
+}  // namespace
+}  // namespace laterna
