@@ -29,7 +29,8 @@ struct Options {
 };
 
 std::vector<Chapter> all_chapters() {
-  return {segal_1992_chapter(), chen_tung_chapter(), wikipedia_chapter(), bentley_chapter(), later_chapter()};
+  return {segal_1992_chapter(), chen_tung_chapter(), wikipedia_chapter(),  bentley_chapter(),
+          later_chapter(),      lens_chapter(),      photograph_chapter(), lamp_chapter()};
 }
 
 int list_figures() {

@@ -32,6 +32,9 @@ Chapter chen_tung_chapter();
 Chapter wikipedia_chapter();
 Chapter bentley_chapter();
 Chapter later_chapter();
+Chapter lens_chapter();
+Chapter photograph_chapter();
+Chapter lamp_chapter();
 
 /// A picture of a figure, once it is drawn.
 struct Panel {
