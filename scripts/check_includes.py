@@ -51,6 +51,7 @@ PUBLIC_HEADERS = {
     "shadows.h": "scene",
     "stages.h": "base",
     "technique_choice.h": "scene",
+    "thrown_picture.h": "measure",
     "view.h": "base",
 }
 

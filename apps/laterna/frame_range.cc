@@ -62,20 +62,18 @@ Result<FrameRate> parse_rate(const std::string& text) {
 
 }  // namespace
 
-void TimeOptions::declare(CLI::App& command) {
-  CLI::Option* one = command.add_option("--time", time, "scene time in seconds, for slides that are films")
-                         ->capture_default_str();
+void FrameOptions::declare(CLI::App& command) {
   command
       .add_option(
           "--frames", frames,
           "FIRST:LAST, both included: a picture for each; -o needs # where the number goes: out.####.png")
-      ->excludes(one);
+      ->excludes("--time");
   command.add_option("--fps", fps, "of --frames: frame k is at k/fps seconds; 30000/1001 is understood")
       ->needs("--frames")
       ->capture_default_str();
 }
 
-Result<std::vector<TimedOutput>> TimeOptions::outputs(const std::string& output) const {
+Result<std::vector<TimedOutput>> FrameOptions::outputs(double time, const std::string& output) const {
   if (!is_series()) return std::vector<TimedOutput>{{time, output}};
   const Result<Range> range = parse_range(frames);
   if (!range) return tl::unexpected(range.error());

@@ -50,7 +50,7 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& map) {
 struct RenderOptions {
   SceneOptions scene;
   ViewOptions view;
-  TimeOptions time;
+  FrameOptions frames;
   std::string output, layer_pictures;
   std::string shadows = "map", shading = "pbr", passes = "single", interpolation = "perspective",
               depth = "auto";
@@ -185,6 +185,16 @@ void advise_softness(const Scene& scene, ShadowTechnique for_all) {
   }
 }
 
+/// A projector that is aimed past everything is seldom meant.
+void tell_idle_projectors(const Renderer& renderer) {
+  for (const std::string& name : renderer.idle_projectors()) {
+    fmt::print(stderr,
+               "laterna: note: the light of projector \"{}\" meets nothing: laterna inspect --light tells "
+               "where it points\n",
+               name);
+  }
+}
+
 /// Only one model's numbers are candela per square metre.
 void advise_luminance(const RenderSettings& settings, const std::optional<FalseColorChoice>& false_color) {
   const bool is_shown = std::ranges::find(settings.layers, Layer::luminance) != settings.layers.end() ||
@@ -220,19 +230,21 @@ class RenderCommand {
     }
     if (const std::string fault = find_output_fault(*settings); !fault.empty())
       return report(bad_option(fault));
-    const Result<std::vector<TimedOutput>> outputs = options_.time.outputs(options_.output);
+    const Result<std::vector<TimedOutput>> outputs =
+        options_.frames.outputs(options_.scene.time, options_.output);
     if (!outputs) return report(outputs.error());
     if (Result<void> writable = check_image_output(outputs->front().file); !writable)
       return report(writable.error());
-    Result<Renderer> renderer = options_.scene.make_renderer(
-        [&](Scene& scene) {
-          if (*background) scene.background = *background;
-        },
-        outputs->front().seconds);
+    SceneOptions at_first = options_.scene;
+    at_first.time = outputs->front().seconds;
+    Result<Renderer> renderer = at_first.make_renderer([&](Scene& scene) {
+      if (*background) scene.background = *background;
+    });
     if (!renderer) return report(renderer.error());
     const Result<View> view = options_.view.find(*renderer, {settings->width, settings->height});
     if (!view) return report(view.error());
     tell_unserved_lights(renderer->scene(), settings->shadows);
+    tell_idle_projectors(*renderer);
     load_ms_ = elapsed(start);
     advise_luminance(*settings, false_color_);
     return draw_all(*renderer, *view, *settings, *exposure, *outputs);
@@ -253,7 +265,7 @@ class RenderCommand {
     if (options_.progressive && options_.output == "-")
       return "--progressive and -o - would write several pictures to standard output";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
-    if (options_.time.is_series() && !options_.layer_pictures.empty())
+    if (options_.frames.is_series() && !options_.layer_pictures.empty())
       return "--layer-pictures: with --frames, each frame's would replace the last one's; give an output "
              "that ends in .exr";
     if (!settings.layers.empty() && !keeps_layers(options_.output) && options_.layer_pictures.empty()) {
@@ -277,7 +289,7 @@ class RenderCommand {
       if (options_.json) pictures.push_back(std::move(picture));
     }
     if (!options_.json) return kOk;
-    fmt::print("{}\n", options_.time.is_series() ? pictures.dump(2) : pictures[0].dump(2));
+    fmt::print("{}\n", options_.frames.is_series() ? pictures.dump(2) : pictures[0].dump(2));
     return kOk;
   }
 
@@ -454,7 +466,7 @@ void declare_render(CLI::App& app, Run& run) {
                    "picture to write: .png, .exr, .hdr or .pfm; - is PNG on standard output")
       ->required();
   o.view.declare(*command);
-  o.time.declare(*command);
+  o.frames.declare(*command);
   declare_picture_options(*command, o);
   std::vector<std::string> layers = {"all"};
   for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);

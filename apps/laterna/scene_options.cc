@@ -25,6 +25,8 @@ void SceneOptions::declare_scene(CLI::App& command) {
   command.add_option("--unit", unit, "what one unit is in formats that do not say")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}))
       ->capture_default_str();
+  command.add_option("--time", time, "scene time in seconds, for slides that are films")
+      ->capture_default_str();
 }
 
 void SceneOptions::declare_machine(CLI::App& command) {
@@ -53,6 +55,7 @@ Result<Scene> SceneOptions::load() const {
 Result<RendererOptions> SceneOptions::renderer_options() const {
   RendererOptions options;
   options.threads = threads;
+  options.time = time;
   if (instruction_set.empty()) return options;
   options.instruction_set = instruction_set_named(instruction_set);
   if (!options.instruction_set) {
@@ -63,10 +66,9 @@ Result<RendererOptions> SceneOptions::renderer_options() const {
   return options;
 }
 
-Result<Renderer> SceneOptions::make_renderer(const std::function<void(Scene&)>& amend, double time) const {
-  Result<RendererOptions> options = renderer_options();
+Result<Renderer> SceneOptions::make_renderer(const std::function<void(Scene&)>& amend) const {
+  const Result<RendererOptions> options = renderer_options();
   if (!options) return tl::unexpected(options.error());
-  options->time = time;
   Result<Scene> scene = load();
   if (!scene) return tl::unexpected(std::move(scene.error()));
   if (amend) amend(*scene);

@@ -16,10 +16,11 @@ struct SceneOptions {
   std::vector<std::string> rigs;
   std::string up = "y";
   std::string unit = "m";
+  double time = 0;  ///< seconds
   int threads = 0;
   std::string instruction_set;
 
-  /// SCENE..., --rig, --up, --unit.
+  /// SCENE..., --rig, --up, --unit, --time.
   void declare_scene(CLI::App& command);
   /// --threads, --isa.
   void declare_machine(CLI::App& command);
@@ -27,9 +28,8 @@ struct SceneOptions {
   [[nodiscard]] double metres_per_unit() const;  ///< of --unit
   [[nodiscard]] Result<Scene> load() const;
   [[nodiscard]] Result<RendererOptions> renderer_options() const;
-  /// Loads the scene, lets `amend` change it, makes it ready at a scene time in seconds, and tells its warnings.
-  [[nodiscard]] Result<Renderer> make_renderer(const std::function<void(Scene&)>& amend = {},
-                                               double time = 0) const;
+  /// Loads the scene, lets `amend` change it, makes it ready at its time, and tells its warnings.
+  [[nodiscard]] Result<Renderer> make_renderer(const std::function<void(Scene&)>& amend = {}) const;
 };
 
 struct ViewOptions {

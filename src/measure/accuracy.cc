@@ -224,7 +224,8 @@ Result<AccuracyReport> measure_all(const Renderer& renderer, const View& view, A
   for (Light& light : scene.lights) {
     if (settings.resolution > 0) light.shadow.resolution = settings.resolution;
   }
-  Result<Renderer> own = Renderer::create(std::move(scene), {renderer.threads(), renderer.instruction_set()});
+  Result<Renderer> own =
+      Renderer::create(std::move(scene), {renderer.threads(), renderer.instruction_set(), renderer.time()});
   if (!own) return tl::unexpected(std::move(own.error()));
   return Measurement(std::move(*own), view, settings, progress).run();
 }
