@@ -431,6 +431,8 @@ class TileRaster {
     const int x = t.x - tile_x_, y = t.y - tile_y_;  // in the tile
     const int x_first = std::max(x, 0) & ~3, x_end = std::min(x + t.columns, kTileSide);
     const int y_first = std::max(y, 0) & ~3, y_end = std::min(y + t.rows, kTileSide);
+    const bool is_in_one_block = x_end - x_first <= kBlockSide && y_end - y_first <= kBlockSide;
+    if (is_in_one_block && t.q_max < farthest_[BlockAt(x_first, y_first)]) return;
     SmallEdges edges = EdgesOf(t, x_first - x, y_first - y);
     FloatVector lane_q[kVectors];
     for (std::size_t k = 0; k < kVectors; ++k) {

@@ -84,6 +84,15 @@ void PictureWriter::write_color8(int tile_x, int tile_y, const shade::TileResult
   const int rows = std::min(kTileSide, height_ - tile_y * kTileSide);
   const auto channels = static_cast<std::size_t>(color8_->channels);
   const bool has_alpha = channels == 4;
+  std::uint8_t* first = color8_->pixels + static_cast<std::size_t>(tile_y * kTileSide) * color8_->row_stride +
+                        static_cast<std::size_t>(x) * channels;
+  // Nobody has touched the picture's memory yet: it is fetched while the tile is encoded.
+  constexpr std::size_t kCacheLine = 64;
+  for (int y = 0; y < rows; ++y) {
+    const std::uint8_t* row = first + static_cast<std::size_t>(y) * color8_->row_stride;
+    for (std::size_t byte = 0; byte < columns * channels; byte += kCacheLine)
+      __builtin_prefetch(row + byte, 1);
+  }
   alignas(64) std::uint32_t pixels[raster::kTilePixels];
   encode_pixels_({tile.beauty.r.data(), tile.beauty.g.data(), tile.beauty.b.data(),
                   has_alpha ? tile.alpha.data() : nullptr, color8_->exposure},
@@ -97,10 +106,7 @@ void PictureWriter::write_color8(int tile_x, int tile_y, const shade::TileResult
     } else {
       drop_alpha(row, bytes);
     }
-    std::uint8_t* out = color8_->pixels +
-                        static_cast<std::size_t>(tile_y * kTileSide + y) * color8_->row_stride +
-                        static_cast<std::size_t>(x) * channels;
-    std::memcpy(out, bytes, columns * channels);
+    std::memcpy(first + static_cast<std::size_t>(y) * color8_->row_stride, bytes, columns * channels);
   }
 }
 

@@ -14,29 +14,6 @@ constexpr float kSlack = 1e-5F;
 
 }  // namespace
 
-frame::Bounds bounds_of(const shadow::SurfaceSamples& samples) {
-  constexpr std::size_t kGroupSize = shadow::kGroupSize;
-  const shadow::SampleArray<float>* axes[3] = {&samples.x_ws, &samples.y_ws, &samples.z_ws};
-  frame::Bounds bounds;
-  bounds.is_empty = samples.group_count == 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    // Lane by lane, so that compilers make vectors of it.
-    std::array<float, kGroupSize> low{}, high{};
-    low.fill(std::numeric_limits<float>::max());
-    high.fill(std::numeric_limits<float>::lowest());
-    const float* values = axes[axis]->data();
-    for (std::size_t first = 0; first < samples.group_count * kGroupSize; first += kGroupSize) {
-      for (std::size_t i = 0; i < kGroupSize; ++i) {
-        low[i] = std::min(low[i], values[first + i]);
-        high[i] = std::max(high[i], values[first + i]);
-      }
-    }
-    bounds.low[axis] = *std::min_element(low.begin(), low.end());
-    bounds.high[axis] = *std::max_element(high.begin(), high.end());
-  }
-  return bounds;
-}
-
 LightReach::LightReach(const frame::PlacedLight& placed, ShadingModel model)
     : position_ws_(placed.pose.position_ws), range_squared_(std::numeric_limits<float>::infinity()) {
   const Light& light = *placed.light;

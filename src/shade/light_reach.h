@@ -7,13 +7,15 @@
 #include <limits>
 
 #include "frame/frame.h"
+#include "laterna/instruction_set.h"
 #include "laterna/shading.h"
 #include "shadow/surface_samples.h"
 
 namespace laterna::shade {
 
 /// Bounds of the samples' positions.
-frame::Bounds bounds_of(const shadow::SurfaceSamples& samples);
+using FindBounds = frame::Bounds (*)(const shadow::SurfaceSamples& samples);
+FindBounds find_bounds_for(InstructionSet set);
 
 /// The part of space outside of which a light gives nothing: halfspaces, and a sphere where it has a range.
 class LightReach {

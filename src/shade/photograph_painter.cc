@@ -27,6 +27,7 @@ PhotographPainter::PhotographPainter(const PhotographJob& job, bool keeps_colors
       find_faced_(find_faced_for(set)),
       add_photograph_(add_photograph_for(set)),
       take_photographs_(take_photographs_for(set)),
+      find_bounds_(find_bounds_for(set)),
       sums_(std::make_unique<PhotographSums>()),
       arrival_(std::make_unique<shadow::Arrival>()),
       colors_(keeps_colors ? job.photographs.size() : 1),
@@ -35,7 +36,7 @@ PhotographPainter::PhotographPainter(const PhotographJob& job, bool keeps_colors
 double PhotographPainter::paint(const shadow::SurfaceSamples& samples, SurfacePoints& points) {
   for (shadow::SampleArray<float>* sum : {&sums_->r, &sums_->g, &sums_->b, &sums_->weight, &sums_->seen})
     sum->fill(0);
-  const frame::Bounds bounds = bounds_of(samples);
+  const frame::Bounds bounds = find_bounds_(samples);
   double drawing_ms = 0;
   for (std::size_t p = 0; p < job_.photographs.size(); ++p) {
     const ShaderPhotograph& photograph = job_.photographs[p];

@@ -40,6 +40,7 @@ class PhotographPainter {
   FindFaced find_faced_;
   AddPhotograph add_photograph_;
   TakePhotographs take_photographs_;
+  FindBounds find_bounds_;
   std::unique_ptr<PhotographSums> sums_;
   std::unique_ptr<shadow::Arrival> arrival_;
   std::vector<PhotographColor> colors_;  // one, or one for each photograph where they are kept

@@ -1,7 +1,6 @@
 #include "shade/sample_batch.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace laterna::shade {
@@ -25,24 +24,17 @@ void repeat_active(SurfaceSamples& s, std::size_t group) {
   }
 }
 
-// Half a unit in the last place of the coordinates as stored, and a few of the distance for the ray's arithmetic.
-float position_error_of(const TileOrigin& origin, const SurfaceSamples& s) {
+}  // namespace
+
+float position_error(const TileOrigin& origin, float least_q) {
   const frame::Bounds& bounds = origin.frame->bounds;
   float extent = 0;
   for (int k = 0; k < 3; ++k) extent = std::max({extent, std::abs(bounds.low[k]), std::abs(bounds.high[k])});
-  // Lane by lane, so that compilers make vectors of it.
-  std::array<float, kGroupSize> lowest{};
-  std::copy_n(s.q.begin(), kGroupSize, lowest.begin());
-  for (std::size_t first = kGroupSize; first < s.group_count * kGroupSize; first += kGroupSize) {
-    for (std::size_t i = 0; i < kGroupSize; ++i) lowest[i] = std::min(lowest[i], s.q[first + i]);
-  }
-  const float q = *std::min_element(lowest.begin(), lowest.end());
   const raster::RasterView& view = *origin.view;
-  const float distance = view.is_orthographic ? static_cast<float>(view.view.projection.far) : 1 / q;
+  const float distance = view.is_orthographic ? static_cast<float>(view.view.projection.far) : 1 / least_q;
+  // Half a unit in the last place of the coordinates as stored, and a few of the distance for the ray's arithmetic.
   return 1.2e-7F * extent + 4e-7F * distance;
 }
-
-}  // namespace
 
 TileOrigin::TileOrigin(const frame::Frame& of_frame, const raster::RasterView& of_view, int tile_x,
                        int tile_y, int offset_x, int offset_y)
@@ -52,28 +44,6 @@ TileOrigin::TileOrigin(const frame::Frame& of_frame, const raster::RasterView& o
         (0.5F + static_cast<float>(offset_x) / raster::kSubpixels)),
       y(static_cast<float>(tile_y * raster::kTileSide - of_view.origin_y) +
         (0.5F + static_cast<float>(offset_y) / raster::kSubpixels)) {}
-
-void fill_from_blocks(const TileOrigin& origin, std::span<const SurfaceGroups::Block> blocks,
-                      const float* depth, const TriangleId* ids, SurfaceSamples& s) {
-  s.group_count = blocks.size();
-  for (std::size_t group = 0; group < blocks.size(); ++group) {
-    const std::size_t block = blocks[group].block;
-    const std::size_t first = group * kGroupSize;
-    s.active[group] = blocks[group].mask;
-    const auto column = block % raster::kBlocksPerSide, row = block / raster::kBlocksPerSide;
-    const float x = origin.x + static_cast<float>(column * 4);
-    const float y = origin.y + static_cast<float>(row * 4);
-    for (std::size_t i = 0; i < kGroupSize; ++i) {
-      s.x[first + i] = x + static_cast<float>(i & 3U);
-      s.y[first + i] = y + static_cast<float>(i >> 2U);
-      s.q[first + i] = depth[block * kGroupSize + i];
-      s.id[first + i] = ids[block * kGroupSize + i];
-      s.pixel[first + i] = static_cast<std::uint32_t>(block * kGroupSize + i);
-    }
-    repeat_active(s, group);
-  }
-  s.position_error = position_error_of(origin, s);
-}
 
 void fill_from_fragments(const TileOrigin& origin, std::span<const raster::Fragment> fragments,
                          std::span<const std::uint32_t> indices, SurfaceSamples& s) {
@@ -92,7 +62,8 @@ void fill_from_fragments(const TileOrigin& origin, std::span<const raster::Fragm
     active = static_cast<std::uint16_t>(active | 1U << (i % kGroupSize));
   }
   repeat_active(s, s.group_count - 1);
-  s.position_error = position_error_of(origin, s);
+  const auto end = s.q.begin() + static_cast<std::ptrdiff_t>(s.group_count * kGroupSize);
+  s.position_error = position_error(origin, *std::min_element(s.q.begin(), end));
 }
 
 }  // namespace laterna::shade

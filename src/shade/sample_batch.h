@@ -4,6 +4,7 @@
 #include <span>
 
 #include "frame/frame.h"
+#include "laterna/instruction_set.h"
 #include "raster/tile_raster.h"
 #include "shade/surface_groups.h"
 #include "shadow/surface_samples.h"
@@ -22,11 +23,15 @@ struct TileOrigin {
 };
 
 /// At most shadow::kMaxGroups blocks, of the tile's depths and ids (in its storage order).
-void fill_from_blocks(const TileOrigin& origin, std::span<const SurfaceGroups::Block> blocks,
-                      const float* depth, const TriangleId* ids, shadow::SurfaceSamples& samples);
+using FillFromBlocks = void (*)(const TileOrigin& origin, std::span<const SurfaceGroups::Block> blocks,
+                                const float* depth, const TriangleId* ids, shadow::SurfaceSamples& samples);
+FillFromBlocks fill_from_blocks_for(InstructionSet set);
 
 /// `indices` into `fragments`, at most shadow::kMaxSamples of one surface; SurfaceSamples::pixel becomes the index.
 void fill_from_fragments(const TileOrigin& origin, std::span<const raster::Fragment> fragments,
                          std::span<const std::uint32_t> indices, shadow::SurfaceSamples& samples);
+
+/// SurfaceSamples::position_error of samples of which the farthest has the reversed depth `least_q`.
+float position_error(const TileOrigin& origin, float least_q);
 
 }  // namespace laterna::shade

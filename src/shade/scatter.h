@@ -1,8 +1,7 @@
 // From samples in a batch to pixels of a tile.
 #pragma once
 
-#include <cstring>
-
+#include "laterna/instruction_set.h"
 #include "shade/illumination.h"
 #include "shadow/surface_samples.h"
 
@@ -19,13 +18,6 @@ inline void scatter(const shadow::SurfaceSamples& samples, const float* values, 
   for (std::size_t group = 0; group < samples.group_count; ++group) {
     const std::size_t first = group * kGroupSize;
     const std::uint32_t* pixel = samples.pixel.data() + first;
-    if (samples.active[group] == 0xFFFFU && pixel[15] == pixel[0] + 15) {
-      // In pieces that compilers copy by themselves: a call for 64 bytes costs more than they do.
-      for (std::size_t i = 0; i < kGroupSize; i += 4) {
-        std::memcpy(target + *pixel + i, values + first + i, 4 * sizeof(float));
-      }
-      continue;
-    }
     for (unsigned mask = samples.active[group]; mask != 0; mask &= mask - 1) {
       const auto i = static_cast<std::size_t>(__builtin_ctz(mask));
       target[pixel[i]] = values[first + i];
@@ -33,11 +25,9 @@ inline void scatter(const shadow::SurfaceSamples& samples, const float* values, 
   }
 }
 
-inline void scatter(const shadow::SurfaceSamples& samples, const Radiance& radiance,
-                    const ColorTarget& target) {
-  scatter(samples, radiance.r.data(), target.r);
-  scatter(samples, radiance.g.data(), target.g);
-  scatter(samples, radiance.b.data(), target.b);
-}
+/// The same for colours. Up to kGroupSize − 1 places behind a target's last are written to, with what is there.
+using ScatterRadiance = void (*)(const shadow::SurfaceSamples& samples, const Radiance& radiance,
+                                 const ColorTarget& target);
+ScatterRadiance scatter_radiance_for(InstructionSet set);
 
 }  // namespace laterna::shade

@@ -58,6 +58,9 @@ class TileShader::Worker {
         find_irradiance_(find_irradiance_for(job.instruction_set)),
         find_ambient_(find_ambient_for(job.instruction_set)),
         reflect_(reflect_for(job.instruction_set)),
+        fill_from_blocks_(fill_from_blocks_for(job.instruction_set)),
+        find_bounds_(find_bounds_for(job.instruction_set)),
+        scatter_radiance_(scatter_radiance_for(job.instruction_set)),
         groups_(*job.frame),
         samples_(std::make_unique<SurfaceSamples>()),
         points_(std::make_unique<SurfacePoints>()),
@@ -169,8 +172,8 @@ class TileShader::Worker {
     for (const SurfaceGroups::Group& group : groups_.groups()) {
       for (std::size_t first = 0; first < group.blocks.size(); first += kMaxGroups) {
         const std::size_t count = std::min(kMaxGroups, group.blocks.size() - first);
-        fill_from_blocks(origin(), std::span(group.blocks).subspan(first, count), depth_.data(), ids_.data(),
-                         *samples_);
+        fill_from_blocks_(origin(), std::span(group.blocks).subspan(first, count), depth_.data(), ids_.data(),
+                          *samples_);
         shade_batch(job_.frame->surfaces[group.surface], targets, part, true);
       }
     }
@@ -240,11 +243,11 @@ class TileShader::Worker {
     if (part.ambient) {
       find_ambient_(job_.reflection, surface, groups, *points_, *radiance_);
       if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
-      if (!sums) scatter(*samples_, *radiance_, targets[0]);
+      if (!sums) scatter_radiance_(*samples_, *radiance_, targets[0]);
     }
     // Where a light gives nothing, planes of the picture and of fragments are dark already.
     const bool may_leave_out = has_lights_to_leave_out_ && !wants_arrival(is_opaque) && !keeps_illumination();
-    const frame::Bounds bounds = may_leave_out ? bounds_of(*samples_) : frame::Bounds();
+    const frame::Bounds bounds = may_leave_out ? find_bounds_(*samples_) : frame::Bounds();
     for (std::size_t light = part.first_light; light < part.end_light; ++light) {
       if (surface.unlit && !wants_arrival(is_opaque)) continue;
       const ShaderLight& shader_light = job_.lights[light];
@@ -258,9 +261,9 @@ class TileShader::Worker {
       if (surface.unlit) continue;
       reflect_(job_.reflection, groups, *points_, *irradiance_, seen, shader_light.tone.fill(), sums,
                *radiance_);
-      if (!sums) scatter(*samples_, *radiance_, targets[light + 1]);
+      if (!sums) scatter_radiance_(*samples_, *radiance_, targets[light + 1]);
     }
-    if (sums) scatter(*samples_, *radiance_, targets[0]);
+    if (sums) scatter_radiance_(*samples_, *radiance_, targets[0]);
     end_stage(Stage::light);
   }
 
@@ -336,7 +339,7 @@ class TileShader::Worker {
   // stays that light's.
   void blend_fragments() {
     const std::size_t count = fragments_.list().size();
-    fragment_values_.assign(count * (3 * planes_.size() + 1), 0.0F);
+    fragment_values_.assign(count * (3 * planes_.size() + 1) + kGroupSize, 0.0F);
     std::vector<ColorTarget> targets;
     for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
       float* first = fragment_values_.data() + count * 3 * plane;
@@ -430,6 +433,9 @@ class TileShader::Worker {
   FindIrradiance find_irradiance_;
   FindAmbient find_ambient_;
   Reflect reflect_;
+  FillFromBlocks fill_from_blocks_;
+  FindBounds find_bounds_;
+  ScatterRadiance scatter_radiance_;
 
   int tile_x_ = 0, tile_y_ = 0;
   std::size_t sample_ = 0;

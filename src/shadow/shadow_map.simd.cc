@@ -98,40 +98,80 @@ class TileFinder {
   float reach_;
 };
 
-void find_missing_tiles(const ShadowMapTest& test, const SurfaceSamples& samples,
-                        std::span<const std::uint16_t> wanted, std::vector<MapTile>& missing) {
-  const FloatTag d;
-  const auto is_complete = [](const BoundDepthMap& map) { return map.map->is_complete(); };
-  if (std::all_of(test.maps.begin(), test.maps.end(), is_complete)) return;
+// Calls `use(index of a map, samples as it sees them, which of them ask it)`, vector by vector.
+template <class Use>
+HWY_INLINE void ForEachReceiver(const ShadowMapTest& test, const SurfaceSamples& samples,
+                                std::span<const std::uint16_t> wanted, Use use) {
   for (std::size_t group = 0; group < samples.group_count; ++group) {
     for (std::size_t k = 0; k < kGroupSize; k += kLanes) {
       const std::uint32_t bits = std::uint32_t{wanted[group]} >> k & ((1U << kLanes) - 1);
       if (bits == 0) continue;
       const Points points = LoadPoints(samples, group * kGroupSize + k);
       ForEachMap(test, points, [&](const BoundDepthMap& bound, const Share& share) HWY_ATTR {
-        const MapReader reader(test, bound, samples.position_error);
-        const Receiver r = reader.Find(points);
+        const Receiver r = MapReader(test, bound, samples.position_error).Find(points);
         const auto asked = hn::And(hn::And(share.here, r.is_seen), MaskFromBits(bits));
-        if (hn::AllFalse(d, asked)) return;
-        TileFinder finder(test, static_cast<std::size_t>(&bound - test.maps.data()), missing);
-        const auto low = [&](FloatVector v) HWY_ATTR {
-          return hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(asked, v, Splat(1e30F))));
-        };
-        const auto high = [&](FloatVector v) HWY_ATTR {
-          return hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElse(asked, v, Splat(-1e30F))));
-        };
-        if (finder.IsDrawn(finder.Around(low(r.x), high(r.x), low(r.y), high(r.y)))) return;
-        // Samples of one group may lie far apart on the map.
-        alignas(64) float x[kLanes], y[kLanes];
-        hn::Store(r.x, d, x);
-        hn::Store(r.y, d, y);
-        for (std::uint32_t left = BitsOf(asked); left != 0; left &= left - 1) {
-          const auto i = static_cast<std::size_t>(__builtin_ctz(left));
-          finder.Note(finder.Around(x[i], x[i], y[i], y[i]));
-        }
+        if (!hn::AllFalse(FloatTag(), asked))
+          use(static_cast<std::size_t>(&bound - test.maps.data()), r, asked);
       });
     }
   }
+}
+
+// Where on a map samples lie.
+class AskedTexels {
+ public:
+  AskedTexels()
+      : low_x_(Splat(1e30F)), high_x_(Splat(-1e30F)), low_y_(Splat(1e30F)), high_y_(Splat(-1e30F)) {}
+
+  HWY_INLINE void Add(const Receiver& r, FloatMask asked) {
+    low_x_ = hn::Min(low_x_, hn::IfThenElse(asked, r.x, low_x_));
+    high_x_ = hn::Max(high_x_, hn::IfThenElse(asked, r.x, high_x_));
+    low_y_ = hn::Min(low_y_, hn::IfThenElse(asked, r.y, low_y_));
+    high_y_ = hn::Max(high_y_, hn::IfThenElse(asked, r.y, high_y_));
+  }
+  [[nodiscard]] HWY_INLINE bool AreDrawn(const TileFinder& finder) const {
+    const auto low = [](FloatVector v) HWY_ATTR { return hn::GetLane(hn::MinOfLanes(FloatTag(), v)); };
+    const auto high = [](FloatVector v) HWY_ATTR { return hn::GetLane(hn::MaxOfLanes(FloatTag(), v)); };
+    if (low(low_x_) > high(high_x_)) return true;  // nobody asks
+    return finder.IsDrawn(finder.Around(low(low_x_), high(high_x_), low(low_y_), high(high_y_)));
+  }
+
+ private:
+  FloatVector low_x_, high_x_, low_y_, high_y_;
+};
+
+// Most often all tiles about a batch's samples are drawn: then nothing is asked sample by sample.
+HWY_INLINE bool AreAllDrawn(const ShadowMapTest& test, const SurfaceSamples& samples,
+                            std::span<const std::uint16_t> wanted, std::vector<MapTile>& missing) {
+  AskedTexels asked_texels[kMostMaps];
+  ForEachReceiver(test, samples, wanted, [&](std::size_t map, const Receiver& r, FloatMask asked) HWY_ATTR {
+    asked_texels[map].Add(r, asked);
+  });
+  for (std::size_t map = 0; map < test.maps.size(); ++map) {
+    if (!asked_texels[map].AreDrawn(TileFinder(test, map, missing))) return false;
+  }
+  return true;
+}
+
+void find_missing_tiles(const ShadowMapTest& test, const SurfaceSamples& samples,
+                        std::span<const std::uint16_t> wanted, std::vector<MapTile>& missing) {
+  const auto is_complete = [](const BoundDepthMap& map) { return map.map->is_complete(); };
+  if (std::all_of(test.maps.begin(), test.maps.end(), is_complete)) return;
+  if (AreAllDrawn(test, samples, wanted, missing)) return;
+  ForEachReceiver(test, samples, wanted, [&](std::size_t map, const Receiver& r, FloatMask asked) HWY_ATTR {
+    TileFinder finder(test, map, missing);
+    AskedTexels texels;
+    texels.Add(r, asked);
+    if (texels.AreDrawn(finder)) return;
+    // Samples of one group may lie far apart on the map.
+    alignas(64) float x[kLanes], y[kLanes];
+    hn::Store(r.x, FloatTag(), x);
+    hn::Store(r.y, FloatTag(), y);
+    for (std::uint32_t left = BitsOf(asked); left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(__builtin_ctz(left));
+      finder.Note(finder.Around(x[i], x[i], y[i], y[i]));
+    }
+  });
 }
 
 }  // namespace laterna::shadow::HWY_NAMESPACE
