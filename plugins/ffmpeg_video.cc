@@ -179,13 +179,27 @@ class Film {
                                                         : entry.shown);
     }
     std::sort(times.begin(), times.end());
-    const std::size_t count = times.size();
-    if (count > 1 && last_duration == 0) last_duration = times[count - 1] - times[count - 2];
-    first_ = times.front();
-    shown_ = times;
-    begins_.reserve(count);
-    for (const std::int64_t time : times) begins_.push_back(time - first_);
-    end_ = begins_.back() + last_duration;
+    const std::int64_t most = most_ticks();
+    begins_.reserve(times.size());
+    for (const std::int64_t time : times) {
+      // A file may claim any two times: their difference need not fit.
+      const std::uint64_t since =
+          static_cast<std::uint64_t>(time) - static_cast<std::uint64_t>(times.front());
+      if (since > static_cast<std::uint64_t>(most))
+        throw Fault("its frames lie further apart than its clock can tell");
+      begins_.push_back(static_cast<std::int64_t>(since));
+    }
+    const std::size_t count = begins_.size();
+    if (count > 1 && last_duration == 0) last_duration = begins_[count - 1] - begins_[count - 2];
+    end_ = begins_.back() + std::min(last_duration, most - begins_.back());
+    shown_ = std::move(times);
+  }
+
+  // Up to here ticks times the clock's numerator are whole numbers that a double holds.
+  [[nodiscard]] std::int64_t most_ticks() const {
+    const AVRational clock = stream().time_base;
+    if (clock.num < 1 || clock.den < 1) throw Fault("its clock makes no sense");
+    return ((std::int64_t{1} << 53) - 1) / clock.num;
   }
 
   // Number of the frame shown at a timestamp; of several, the first.
@@ -388,7 +402,7 @@ class Film {
   std::vector<Entry> entries_;        // in the order of decoding
   std::vector<std::int64_t> shown_;   // timestamps of frames, in their order
   std::vector<std::int64_t> begins_;  // the same from the first one on
-  std::int64_t first_ = 0, end_ = 0;
+  std::int64_t end_ = 0;
   std::size_t missing_ = 0, left_out_ = 0;
   bool is_timed_ = true;  // the container knows when frames are shown
 

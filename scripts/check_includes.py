@@ -57,6 +57,7 @@ PUBLIC_HEADERS = {
     "stages.h": "base",
     "technique_choice.h": "scene",
     "terrain.h": "scene",
+    "thrown_picture.h": "measure",
     "turntable.h": "base",
     "video.h": "image",
     "view.h": "base",

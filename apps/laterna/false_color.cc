@@ -77,6 +77,11 @@ Result<FalseColorChoice> parse_false_color(const std::string& text) {
       text)));
 }
 
+void tell_scale(const LayeredImage& picture, const std::string& channel, const std::string& unit) {
+  fmt::print(stderr, "laterna: {}: the scale goes from 0 to {}{}{}\n", channel,
+             picture.metadata.at("laterna.scale_maximum"), unit.empty() ? "" : " ", unit);
+}
+
 Result<LayeredImage> draw_false_color(const Renderer& renderer, const View& camera,
                                       const RenderSettings& settings, const FalseColorChoice& choice,
                                       RenderStatistics& statistics) {
@@ -91,8 +96,7 @@ Result<LayeredImage> draw_false_color(const Renderer& renderer, const View& came
   Result<LayeredImage> picture =
       false_color_picture(*image, *channel, {choice.maximum, std::string(shown.unit), true});
   if (picture) {
-    fmt::print(stderr, "laterna: {}: the scale ends at {} {}\n", *channel,
-               picture->metadata.at("laterna.scale_maximum"), shown.unit);
+    tell_scale(*picture, *channel, std::string(shown.unit));
   }
   return picture;
 }

@@ -21,7 +21,10 @@ const char* describe_false_color();
 /// From "lux", "luminance" or "pixel_density" ("pixel_density.LIGHT"), each with or without ":MAX".
 Result<FalseColorChoice> parse_false_color(const std::string& text);
 
-/// Draws the layer and colours it; says on stderr where the scale ends.
+/// Says on stderr where the scale of a false-colour picture begins and ends.
+void tell_scale(const LayeredImage& picture, const std::string& channel, const std::string& unit);
+
+/// Draws the layer and colours it; tells its scale.
 Result<LayeredImage> draw_false_color(const Renderer& renderer, const View& camera,
                                       const RenderSettings& settings, const FalseColorChoice& choice,
                                       RenderStatistics& statistics);

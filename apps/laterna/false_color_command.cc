@@ -2,6 +2,7 @@
 #include <CLI/App.hpp>
 #include <memory>
 
+#include "false_color.h"
 #include "laterna/false_color.h"
 #include "outcome.h"
 
@@ -26,6 +27,7 @@ int run_false_color(const Options& options) {
   if (!picture) return report(picture.error());
   if (const Result<void> written = write_image(*picture, options.output); !written)
     return report(written.error());
+  tell_scale(*picture, options.channel, settings.unit);
   return kOk;
 }
 

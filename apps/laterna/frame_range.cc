@@ -63,22 +63,19 @@ Result<FrameRate> parse_rate(const std::string& text) {
 
 }  // namespace
 
-void TimeOptions::declare(CLI::App& command) {
-  CLI::Option* one =
-      command.add_option("--time", time, "scene time in seconds: films and clips are where they then are")
-          ->capture_default_str();
+void FrameOptions::declare(CLI::App& command) {
   command
       .add_option(
           "--frames", frames,
           "FIRST:LAST, both included: a picture for each, where -o needs # in place of the number, as in\n"
           "out.####.png; or a frame of the film that -o names")
-      ->excludes(one);
+      ->excludes("--time");
   command.add_option("--fps", fps, "of --frames: frame k is at k/fps seconds; 30000/1001 is understood")
       ->needs("--frames")
       ->capture_default_str();
 }
 
-Result<std::vector<TimedOutput>> TimeOptions::outputs(const std::string& output) const {
+Result<std::vector<TimedOutput>> FrameOptions::outputs(double time, const std::string& output) const {
   if (!is_series()) return std::vector<TimedOutput>{{time, output}};
   const Result<Range> range = parse_range(frames);
   if (!range) return tl::unexpected(range.error());

@@ -1,4 +1,4 @@
-// Options for pictures at several times: --time, --frames, --fps.
+// Options for pictures at several times: --frames, --fps.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -17,15 +17,15 @@ struct TimedOutput {
   std::string file;
 };
 
-struct TimeOptions {
-  double time = 0;
+struct FrameOptions {
   std::string frames, fps = "24";
 
+  /// --frames, --fps. The command has --time already (SceneOptions).
   void declare(CLI::App& command);
   [[nodiscard]] bool is_series() const { return !frames.empty(); }
-  /// One picture, or one for each frame of the range with its number in place of the # of `output`, or all into `output`
+  /// One picture at `time`, or one for each frame of the range with its number in place of the # of `output`, or all into `output`
   /// where that is a film. Frame k is at k / fps, to the nearest double. Error: what was typed is no range, or the file's name has no place for a number.
-  [[nodiscard]] Result<std::vector<TimedOutput>> outputs(const std::string& output) const;
+  [[nodiscard]] Result<std::vector<TimedOutput>> outputs(double time, const std::string& output) const;
   /// --fps as films have it. Error: no ratio of whole numbers.
   [[nodiscard]] Result<VideoRate> video_rate() const;
 };

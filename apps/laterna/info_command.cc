@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <glm/common.hpp>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "laterna/lamps.h"
 #include "outcome.h"
 #include "scene_options.h"
+#include "thrown_picture_report.h"
 
 namespace laterna::app {
 namespace {
@@ -109,9 +112,28 @@ Json describe_camera(const Camera& camera, const glm::dmat4& world) {
   return j;
 }
 
-Json describe_pictures(const Scene& scene) {
+// Its header, and the frame that it shows; null: it is dark.
+Json describe_film(const Picture& picture, double time) {
+  Json j = {{"name", picture.name}};
+  const Result<FilmHeader> header = read_film_header(picture.file, picture.film->frames_per_second);
+  if (!header) return j;
+  j["format"] = header->format;
+  j["size"] = {header->width, header->height};
+  j["frames"] = header->frames;
+  j["duration_s"] = header->duration;
+  j["frame"] = nullptr;
+  const Result<std::optional<std::size_t>> frame = find_film_frame(picture.file, *picture.film, time);
+  if (frame && *frame) j["frame"] = **frame;
+  return j;
+}
+
+Json describe_pictures(const Scene& scene, double time) {
   Json all = Json::array();
   for (const Picture& picture : scene.pictures) {
+    if (picture.film) {
+      all.push_back(describe_film(picture, time));
+      continue;
+    }
     Json j = {{"name", picture.name}};
     Result<ImageHeader> header = tl::unexpected(Error());
     if (!picture.encoded.empty()) {
@@ -141,7 +163,7 @@ Json describe_clips(const Scene& scene) {
   return all;
 }
 
-Json describe(const Scene& scene) {
+Json describe(const Scene& scene, double time) {
   const Totals totals = count(scene);
   const std::vector<glm::dmat4> world = world_from_nodes(scene);
   Json j = {{"objects", totals.objects},
@@ -154,7 +176,7 @@ Json describe(const Scene& scene) {
             {"cameras", Json::array()},
             {"lights", Json::array()},
             {"materials", Json::array()},
-            {"pictures", describe_pictures(scene)},
+            {"pictures", describe_pictures(scene, time)},
             {"clips", describe_clips(scene)},
             {"skins", scene.skins.size()}};
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
@@ -178,7 +200,36 @@ std::string triple(const Json& v) {
   return fmt::format("{:.3f} {:.3f} {:.3f}", v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
 }
 
-void print_table(const Json& j) {
+// Of a picture that is a film.
+std::string film_text(const Json& picture) {
+  if (!picture.contains("frames")) return {};
+  const Json& frame = picture["frame"];
+  return fmt::format(", {} frames, {:.3f} s, {}", picture["frames"].get<std::size_t>(),
+                     picture["duration_s"].get<double>(),
+                     frame.is_null() ? "dark now" : fmt::format("now frame {}", frame.get<std::size_t>()));
+}
+
+// Where the pictures of projectors that are on land, by the projectors' names. Only for them is the scene made ready.
+using ThrownPictures = std::map<std::string, std::optional<ThrownPicture>>;
+
+ThrownPictures find_thrown_pictures(Scene scene, const RendererOptions& options) {
+  const auto throws = [](const Light& light) { return light.enabled && light.type == LightType::projector; };
+  ThrownPictures all;
+  if (std::ranges::none_of(scene.lights, throws)) return all;
+  const Result<Renderer> renderer = Renderer::create(std::move(scene), options);
+  if (!renderer) {
+    report_warnings(renderer.error().diagnostics);
+    return all;
+  }
+  for (const Light& light : renderer->scene().lights) {
+    if (!throws(light)) continue;
+    const auto thrown = find_thrown_picture(*renderer, light.name);
+    if (thrown) all.emplace(light.name, *thrown);
+  }
+  return all;
+}
+
+void print_table(const Json& j, const ThrownPictures& thrown) {
   fmt::print("{:<12} {}\n{:<12} {}\n{:<12} {}\n", "objects", j["objects"].get<std::size_t>(), "triangles",
              j["triangles"].get<std::size_t>(), "vertices", j["vertices"].get<std::size_t>());
   fmt::print("{:<12} {} to {} m\n", "bounds", triple(j["bounds"][0]), triple(j["bounds"][1]));
@@ -189,7 +240,7 @@ void print_table(const Json& j) {
                                  ? fmt::format("{} {}x{}", p["format"].get<std::string>(),
                                                p["size"][0].get<int>(), p["size"][1].get<int>())
                                  : "in memory";
-    fmt::print("  {:<18} {}\n", size, p["name"].get<std::string>());
+    fmt::print("  {:<18} {}{}\n", size, p["name"].get<std::string>(), film_text(p));
   }
   fmt::print("{:<12} {}\n", "cameras", j["cameras"].size());
   for (const Json& c : j["cameras"]) {
@@ -206,6 +257,10 @@ void print_table(const Json& j) {
                                                       : fmt::format("{:.4g} cd", l["candela"].get<double>());
     fmt::print("  {:<18} {:<12} at {}, {}{}\n", l["name"].get<std::string>(), l["type"].get<std::string>(),
                triple(l["position"]), strength, l["enabled"].get<bool>() ? "" : ", off");
+    const auto found = thrown.find(l["name"].get<std::string>());
+    if (found == thrown.end()) continue;
+    fmt::print("  {:<18} {}\n", "",
+               found->second ? text_of(*found->second) : "the middle of its picture meets nothing");
   }
   if (j["clips"].empty()) return;
   fmt::print("{:<12} {}\n", "clips", j["clips"].size());
@@ -229,13 +284,20 @@ void declare_info(CLI::App& app, Run& run) {
   command->add_flag("--json", options->json, "as JSON, with all there is");
   command->callback([options, &run] {
     run = [options] {
-      const Result<Scene> scene = options->scene.load();
+      Result<Scene> scene = options->scene.load();
       if (!scene) return report(scene.error());
-      const Json j = describe(*scene);
+      const Result<RendererOptions> machine = options->scene.renderer_options();
+      if (!machine) return report(machine.error());
+      Json j = describe(*scene, options->scene.time);
+      const ThrownPictures thrown = find_thrown_pictures(std::move(*scene), *machine);
+      for (Json& light : j["lights"]) {
+        const auto found = thrown.find(light["name"].get<std::string>());
+        if (found != thrown.end()) light["picture"] = found->second ? json_of(*found->second) : Json(nullptr);
+      }
       if (options->json) {
         fmt::print("{}\n", j.dump(2));
       } else {
-        print_table(j);
+        print_table(j, thrown);
       }
       return static_cast<int>(kOk);
     };

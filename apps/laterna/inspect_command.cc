@@ -1,4 +1,4 @@
-// laterna inspect: one point in the five coordinate systems of Segal et al. 1992.
+// laterna inspect: one point in the five coordinate systems of Segal et al. 1992, and where a picture lands.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -9,6 +9,7 @@
 #include "laterna/measure.h"
 #include "outcome.h"
 #include "scene_options.h"
+#include "thrown_picture_report.h"
 
 namespace laterna::app {
 namespace {
@@ -91,11 +92,24 @@ Result<glm::dvec3> find_point(const Options& options, const Renderer& renderer) 
   return renderer.world_from_slide(options.light, slide, options.distance);
 }
 
+// Without a point: where the light's picture lands.
+int tell_thrown_picture(const Options& options, const Renderer& renderer) {
+  const Result<std::optional<ThrownPicture>> thrown = find_thrown_picture(renderer, options.light);
+  if (!thrown) return report(thrown.error());
+  if (options.json) {
+    fmt::print("{}\n", *thrown ? json_of(**thrown).dump(2) : "null");
+  } else {
+    fmt::print("{}\n", *thrown ? text_of(**thrown) : "the middle of its picture meets nothing");
+  }
+  return kOk;
+}
+
 int run_inspect(const Options& options) {
   const Result<ViewOptions::Size> size = options.view.parse_size();
   if (!size) return report(size.error());
   const Result<Renderer> renderer = options.scene.make_renderer();
   if (!renderer) return report(renderer.error());
+  if (options.point.empty() && options.slide.empty()) return tell_thrown_picture(options, *renderer);
   const Result<View> view = options.view.find(*renderer, *size);
   if (!view) return report(view.error());
   const Result<glm::dvec3> point = find_point(options, *renderer);
@@ -119,12 +133,13 @@ void declare_inspect(CLI::App& app, Run& run) {
       app.add_subcommand("inspect", "a point in world, clip, screen, light and texture coordinates");
   options->scene.declare_scene(*command);
   command->add_option("--light", options->light, "light by name")->required();
-  CLI::Option_group* which = command->add_option_group("point", "one of");
+  CLI::Option_group* which =
+      command->add_option_group("point", "one of; without either, where a projector's picture lands");
   which->add_option("--point", options->point, "x,y,z in metres");
   CLI::Option* slide =
       which->add_option("--slide", options->slide,
                         "s,t from a projector's slide's top-left corner, 0 to 1: where it is thrown");
-  which->require_option(1);
+  which->require_option(0, 1);
   command->add_option("--distance", options->distance, "with --slide: metres along the light's axis")
       ->needs(slide)
       ->capture_default_str();
@@ -132,7 +147,8 @@ void declare_inspect(CLI::App& app, Run& run) {
   command->add_flag("--json", options->json,
                     "as JSON, with the matrices and the planes of eye-linear texture generation");
   command->footer(
-      "\nExample:\n  laterna inspect room.glb --rig stage.json --light lantern --point 0,1.2,-3\n");
+      "\nExamples:\n  laterna inspect room.glb --rig stage.json --light lantern --point 0,1.2,-3\n"
+      "  laterna inspect room.glb --rig stage.json --light lantern     # size of its picture, lux, pixels\n");
   command->callback([options, &run] { run = [options] { return run_inspect(*options); }; });
 }
 

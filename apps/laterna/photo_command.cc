@@ -37,7 +37,7 @@ struct PhotoOptions {
   std::string visibility = "exact", blend = "surface", unseen = "0,0,0";
   std::vector<std::string> fly, only, layers;
   double feather = PhotographSettings().feather;
-  int frames = 100, samples = 1;
+  int count = 100, samples = 1;
   bool is_lit = false, keeps_exposure = false, skips_missing = false, json = false;
 };
 
@@ -85,7 +85,7 @@ class PhotoCommand {
       if (!name) return report(name.error());
       name_ = std::move(*name);
     }
-    for (const std::string& file : {name_ ? name_->with(1) : o_.output, o_.mask}) {
+    for (const std::string& file : {name_ ? name_->with(0) : o_.output, o_.mask}) {
       if (file.empty()) continue;
       if (Result<void> writable = check_image_output(file); !writable) return report(writable.error());
     }
@@ -232,13 +232,13 @@ class PhotoCommand {
     }
     const RenderSettings settings = settings_for(size_);
     const Progress progress = progress_line("frames");
-    for (; frames_ < o_.frames; ++frames_) {
-      const double along = o_.frames > 1 ? static_cast<double>(frames_) / (o_.frames - 1) : 0;
+    for (; frames_ < o_.count; ++frames_) {
+      const double along = o_.count > 1 ? static_cast<double>(frames_) / (o_.count - 1) : 0;
       const View view = view_on_path(stops, along * static_cast<double>(stops.size() - 1));
       Result<LayeredImage> image = renderer.render(view, settings);
       if (!image) return tl::unexpected(image.error());
-      if (Result<void> written = write(*image, name_->with(frames_ + 1)); !written) return written;
-      if (progress) progress(static_cast<double>(frames_ + 1) / o_.frames);
+      if (Result<void> written = write(*image, name_->with(frames_)); !written) return written;
+      if (progress) progress(static_cast<double>(frames_ + 1) / o_.count);
     }
     return {};
   }
@@ -352,7 +352,7 @@ void declare_photo(CLI::App& app, Run& run) {
                    "photographs by comma, or all: a way through their cameras, as numbered frames")
       ->allow_extra_args(false)
       ->delimiter(',');
-  command->add_option("--frames", o.frames, "of --fly")
+  command->add_option("--count", o.count, "pictures on the way of --fly, numbered from 0")
       ->check(CLI::Range(1, kMostFrames))
       ->capture_default_str();
   command->add_option("--only", o.only, "photographs by comma: the others are left out")

@@ -21,7 +21,7 @@ struct Options {
   SceneOptions scene;
   std::vector<std::string> points;
   std::string object, rectangle, grid = "10x10", output;
-  double spacing = 0, time = 0;
+  double spacing = 0;
   int accumulate = 1;
   bool json = false;
 };
@@ -129,7 +129,7 @@ int run_probe(const Options& options) {
   if (!options.output.empty()) {
     if (const Result<void> known = check_probe_output(options.output); !known) return report(known.error());
   }
-  const Result<Renderer> renderer = options.scene.make_renderer({}, options.time);
+  const Result<Renderer> renderer = options.scene.make_renderer();
   if (!renderer) return report(renderer.error());
   const Result<std::vector<Probe>> probes = place_probes(options, *renderer);
   if (!probes) return report(probes.error());
@@ -168,7 +168,6 @@ void declare_probe(CLI::App& app, Run& run) {
   command->add_option("--grid", o.grid, "columns x rows of the rectangle")->capture_default_str();
   command->add_option("--object", o.object, "a grid all over this object, facing outward");
   command->add_option("--spacing", o.spacing, "metres between the object's meters");
-  command->add_option("--time", o.time, "scene time in seconds, for films")->capture_default_str();
   command
       ->add_option("--accumulate", o.accumulate,
                    "lamps that have a size: the mean over so many points of them")

@@ -57,8 +57,8 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& map) {
 struct RenderOptions {
   SceneOptions scene;
   ViewOptions view;
-  TimeOptions time;
   FilmOptions film;
+  FrameOptions frames;
   std::string output, layer_pictures;
   std::string shadows = "map", shading = "pbr", passes = "single", interpolation = "perspective",
               depth = "auto";
@@ -201,6 +201,16 @@ void advise_softness(const Scene& scene, ShadowTechnique for_all) {
   }
 }
 
+/// A projector that is aimed past everything is seldom meant.
+void tell_idle_projectors(const Renderer& renderer) {
+  for (const std::string& name : renderer.idle_projectors()) {
+    fmt::print(stderr,
+               "laterna: note: the light of projector \"{}\" meets nothing: laterna inspect --light tells "
+               "where it points\n",
+               name);
+  }
+}
+
 /// Only one model's numbers are candela per square metre.
 void advise_luminance(const RenderSettings& settings, const std::optional<FalseColorChoice>& false_color) {
   const bool is_shown = std::ranges::find(settings.layers, Layer::luminance) != settings.layers.end() ||
@@ -236,19 +246,21 @@ class RenderCommand {
     }
     if (const std::string fault = find_output_fault(*settings); !fault.empty())
       return report(bad_option(fault));
-    const Result<std::vector<TimedOutput>> outputs = options_.time.outputs(options_.output);
+    const Result<std::vector<TimedOutput>> outputs =
+        options_.frames.outputs(options_.scene.time, options_.output);
     if (!outputs) return report(outputs.error());
     if (Result<void> writable = check_output(*settings, *outputs); !writable) return report(writable.error());
-    Result<Renderer> renderer = options_.scene.make_renderer(
-        [&](Scene& scene) {
-          if (*background) scene.background = *background;
-          if (scene.environment && options_.background == "transparent") scene.environment->visible = false;
-        },
-        outputs->front().seconds);
+    SceneOptions at_first = options_.scene;
+    at_first.time = outputs->front().seconds;
+    Result<Renderer> renderer = at_first.make_renderer([&](Scene& scene) {
+      if (*background) scene.background = *background;
+      if (scene.environment && options_.background == "transparent") scene.environment->visible = false;
+    });
     if (!renderer) return report(renderer.error());
     const Result<View> view = options_.view.find(*renderer, {settings->width, settings->height});
     if (!view) return report(view.error());
     tell_unserved_lights(renderer->scene(), settings->shadows);
+    tell_idle_projectors(*renderer);
     load_ms_ = elapsed(start);
     advise_luminance(*settings, false_color_);
     return draw_all(*renderer, *view, *settings, *exposure, *outputs);
@@ -270,11 +282,11 @@ class RenderCommand {
       return "--progressive and -o - would write several pictures to standard output";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
     if (std::string fault = find_film_fault(settings); !fault.empty()) return fault;
-    if (options_.turntable && !options_.time.is_series())
+    if (options_.turntable && !options_.frames.is_series())
       return "--turntable needs --frames, over which it turns";
     if (options_.turntable && !options_.view.from_light.empty())
       return "--turntable turns a camera: leave --from-light out";
-    if (options_.time.is_series() && !options_.layer_pictures.empty())
+    if (options_.frames.is_series() && !options_.layer_pictures.empty())
       return "--layer-pictures: with --frames, each frame's would replace the last one's; give an output "
              "that ends in .exr";
     if (!settings.layers.empty() && !keeps_layers(options_.output) && options_.layer_pictures.empty()) {
@@ -286,14 +298,14 @@ class RenderCommand {
 
   // What films do not go with.
   [[nodiscard]] std::string find_film_fault(const RenderSettings& settings) const {
-    if (options_.resume && (!options_.time.is_series() || makes_film()))
+    if (options_.resume && (!options_.frames.is_series() || makes_film()))
       return "--resume goes on with numbered pictures: it needs --frames and an output such as out.####.png";
     if (!makes_film()) {
       return options_.film.are_given() ? "--codec and --quality are for films: give an output that ends in "
                                          ".mp4, .mkv, .webm or .gif"
                                        : "";
     }
-    if (!options_.time.is_series()) return "a film needs --frames FIRST:LAST";
+    if (!options_.frames.is_series()) return "a film needs --frames FIRST:LAST";
     if (options_.background == "transparent") return "--background transparent: films are opaque";
     if (options_.depth != "auto" && options_.depth != "8") return "--depth: films have 8 bits";
     if (options_.progressive) return "--progressive is for pictures, not for films";
@@ -307,7 +319,7 @@ class RenderCommand {
   // Before what takes long.
   Result<void> check_output(const RenderSettings& settings, const std::vector<TimedOutput>& outputs) {
     if (!makes_film()) return check_image_output(outputs.front().file);
-    const Result<VideoRate> rate = options_.time.video_rate();
+    const Result<VideoRate> rate = options_.frames.video_rate();
     if (!rate) return tl::unexpected(rate.error());
     film_options_ = options_.film.with(*rate, outputs.size());
     return check_video_output(options_.output, settings.width, settings.height, film_options_);
@@ -320,7 +332,7 @@ class RenderCommand {
     exposure_ = exposure;
     const Renderer::Box box = renderer.bounds();
     turntable_centre_ws_ = 0.5 * (box.low_ws + box.high_ws);
-    const bool is_series = options_.time.is_series();
+    const bool is_series = options_.frames.is_series();
     const Interruption interruption(is_series);
     interruption_ = &interruption;
     if (makes_film()) {
@@ -381,7 +393,7 @@ class RenderCommand {
     WriteQueue queue([&](FinishedPicture picture) { return write(std::move(picture)); });
     const auto to_draw = static_cast<double>(std::ranges::count(told, false, &FrameReport::is_skipped));
     const Progress line = progress_line(
-        options_.time.is_series() ? fmt::format("rendering {} frames", to_draw) : std::string("rendering"));
+        options_.frames.is_series() ? fmt::format("rendering {} frames", to_draw) : std::string("rendering"));
     double done = 0;
     const Progress progress = [&](double fraction) {
       return (!line || line((done + fraction) / to_draw)) && interruption_->signal() == 0 &&
@@ -632,7 +644,7 @@ void declare_render(CLI::App& app, Run& run) {
           "film: .mp4, .mkv, .webm or .gif")
       ->required();
   o.view.declare(*command);
-  o.time.declare(*command);
+  o.frames.declare(*command);
   declare_picture_options(*command, o);
   std::vector<std::string> layers = {"all"};
   for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);

@@ -62,6 +62,8 @@ void SceneOptions::declare_scene(CLI::App& command) {
       "--clip", clip,
       "animation that plays: a name that laterna info tells, all or none; by default the first of "
       "each file");
+  command.add_option("--time", time, "scene time in seconds, at which films and clips are shown")
+      ->capture_default_str();
 }
 
 void SceneOptions::declare_machine(CLI::App& command) {
@@ -99,6 +101,7 @@ Result<RendererOptions> SceneOptions::renderer_options() const {
   options.threads = threads;
   if (!no_cache) options.environment_cache = environment_cache();
   options.environment_progress = progress_line("filtering the environment");
+  options.time = time;
   if (instruction_set.empty()) return options;
   options.instruction_set = instruction_set_named(instruction_set);
   if (!options.instruction_set) {
@@ -109,10 +112,9 @@ Result<RendererOptions> SceneOptions::renderer_options() const {
   return options;
 }
 
-Result<Renderer> SceneOptions::make_renderer(const std::function<void(Scene&)>& amend, double time) const {
-  Result<RendererOptions> options = renderer_options();
+Result<Renderer> SceneOptions::make_renderer(const std::function<void(Scene&)>& amend) const {
+  const Result<RendererOptions> options = renderer_options();
   if (!options) return tl::unexpected(options.error());
-  options->time = time;
   Result<Scene> scene = load();
   if (!scene) return tl::unexpected(std::move(scene.error()));
   if (amend) amend(*scene);

@@ -17,12 +17,13 @@ struct SceneOptions {
   std::string up = "y";
   std::string unit = "m";
   std::string clip;
+  double time = 0;  ///< seconds
   int threads = 0;
   std::string instruction_set;
   std::string environment;
   bool no_cache = false;
 
-  /// SCENE..., --rig, --environment, --up, --unit, --clip.
+  /// SCENE..., --rig, --environment, --up, --unit, --clip, --time.
   void declare_scene(CLI::App& command);
   /// --threads, --isa, --no-cache.
   void declare_machine(CLI::App& command);
@@ -30,9 +31,8 @@ struct SceneOptions {
   [[nodiscard]] double metres_per_unit() const;  ///< of --unit
   [[nodiscard]] Result<Scene> load() const;
   [[nodiscard]] Result<RendererOptions> renderer_options() const;
-  /// Loads the scene, lets `amend` change it, makes it ready at a scene time in seconds, and tells its warnings.
-  [[nodiscard]] Result<Renderer> make_renderer(const std::function<void(Scene&)>& amend = {},
-                                               double time = 0) const;
+  /// Loads the scene, lets `amend` change it, makes it ready at its time, and tells its warnings.
+  [[nodiscard]] Result<Renderer> make_renderer(const std::function<void(Scene&)>& amend = {}) const;
 };
 
 struct ViewOptions {

@@ -18,8 +18,9 @@ Result<Subject> without_own_techniques(const Subject& subject) {
   Scene scene = subject.renderer.scene();
   scene.warnings.clear();
   for (Light& light : scene.lights) light.shadow.technique.reset();
-  Result<Renderer> renderer =
-      Renderer::create(std::move(scene), {subject.renderer.threads(), subject.renderer.instruction_set()});
+  Result<Renderer> renderer = Renderer::create(
+      std::move(scene),
+      {subject.renderer.threads(), subject.renderer.instruction_set(), subject.renderer.time()});
   if (!renderer) return tl::unexpected(std::move(renderer.error()));
   return Subject{std::move(*renderer), subject.view, subject.settings, {}};
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "laterna/result.h"
@@ -58,7 +59,11 @@ struct FilmHeader {
 Result<FilmHeader> read_film_header(const std::filesystem::path& file,
                                     double frames_per_second = FilmTiming{}.frames_per_second);
 
-/// Whether a film's name is a pattern of numbered pictures.
+/// Number of the frame that a film shows at a scene time; nothing: it is dark. Errors name the file.
+Result<std::optional<std::size_t>> find_film_frame(const std::filesystem::path& file,
+                                                   const FilmTiming& timing, double scene_time);
+
+/// Whether a film's name is a pattern of numbered pictures: it has # or %d in it, and no file is called so itself.
 bool is_numbered(const std::filesystem::path& file);
 
 /// Whether video files can be opened here; loads FFmpeg to find out.

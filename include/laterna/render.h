@@ -224,7 +224,12 @@ class Renderer {
   /// world axis that the triangle faces most meet it, `spacing` metres apart. Error: no such object, or too many probes.
   [[nodiscard]] Result<std::vector<Probe>> probes_on_object(const std::string& object, double spacing) const;
 
-  /// Moves a node, or replaces a light. What does not depend on it is kept. Not to be called during a render.
+  /// Projectors that are on and in whose beam, and nearer than their far plane, there is no surface at all, as far as
+  /// surfaces' bounds tell. Their names, in the scene's order.
+  [[nodiscard]] std::vector<std::string> idle_projectors() const;
+
+  /// Moves a node, or replaces a light. What does not depend on it is kept. Warnings of a film that a new slide is (it ends
+  /// early) are added to scene().warnings. Not to be called during a render.
   Result<void> set_transform(int node, const glm::dmat4& parent_from_node);
   Result<void> set_light(int light, Light value);
 

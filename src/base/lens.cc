@@ -8,6 +8,7 @@
 #include <glm/mat2x2.hpp>
 #include <vector>
 
+#include "base/camera_distortion.h"
 #include "base/elementary.h"
 
 namespace laterna {
@@ -54,8 +55,10 @@ std::vector<double> sign_changes(const Polynomial& p, double low, double high) {
   return found;
 }
 
-// f of `distorted`.
-double radial_factor(const LensDistortion& l, double r2) { return 1 + r2 * (l.k1 + r2 * (l.k2 + r2 * l.k3)); }
+// The same lens in the longer formula, whose denominator is 1.
+CameraDistortion camera_distortion(const LensDistortion& l) {
+  return {{l.k1, l.k2, l.k3, 0, 0, 0}, {l.p1, l.p2}};
+}
 
 // Newton's method, held within the field, each step halved until it brings `place` nearer. Whether it was reached.
 bool approach(const LensDistortion& lens, double field, glm::dvec2 place, glm::dvec2& direction) {
@@ -110,15 +113,12 @@ std::string fold_message(double field, glm::dvec2 slide) {
 
 }  // namespace
 
-glm::dvec2 distorted(const LensDistortion& l, glm::dvec2 p) {
-  const double r2 = glm::dot(p, p), xy = 2 * p.x * p.y;
-  return p * radial_factor(l, r2) +
-         glm::dvec2(l.p1 * xy + l.p2 * (r2 + 2 * p.x * p.x), l.p1 * (r2 + 2 * p.y * p.y) + l.p2 * xy);
-}
+glm::dvec2 distorted(const LensDistortion& l, glm::dvec2 p) { return distorted(camera_distortion(l), p); }
 
 glm::dmat2 distorted_by(const LensDistortion& l, glm::dvec2 p) {
   const double r2 = glm::dot(p, p);
-  const double f = radial_factor(l, r2), slope = 2 * (l.k1 + r2 * (2 * l.k2 + r2 * 3 * l.k3));
+  const double f = radial_factor(camera_distortion(l), r2),
+               slope = 2 * (l.k1 + r2 * (2 * l.k2 + r2 * 3 * l.k3));
   const double xx = f + slope * p.x * p.x + 2 * l.p1 * p.y + 6 * l.p2 * p.x;
   const double yy = f + slope * p.y * p.y + 6 * l.p1 * p.y + 2 * l.p2 * p.x;
   const double xy = slope * p.x * p.y + 2 * l.p1 * p.x + 2 * l.p2 * p.y;

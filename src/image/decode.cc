@@ -32,8 +32,10 @@ constexpr std::array kNotRead = {
     KnownSignature{0, std::string_view("MM\0*", 4), "TIFF"},
     KnownSignature{4, "ftypavif", "AVIF"},
     KnownSignature{4, "ftypheic", "HEIC"},
-    KnownSignature{4, "ftyp", "an MP4 or QuickTime film"},
-    KnownSignature{0, "\x1a\x45\xdf\xa3", "a Matroska or WebM film"},
+    KnownSignature{4, "ftyp", "an MP4 or QuickTime film: a rig's \"film\" takes it, not its \"slide\""},
+    KnownSignature{0, "\x1a\x45\xdf\xa3",
+                   "a Matroska or WebM film: a rig's \"film\" takes it, not its \"slide\""},
+    KnownSignature{8, "AVI ", "an AVI film: a rig's \"film\" takes it, not its \"slide\""},
     KnownSignature{0, "<svg", "SVG"},
     KnownSignature{0, "P7\n", "PAM"},
 };

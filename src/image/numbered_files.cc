@@ -101,6 +101,9 @@ Result<std::map<std::uint64_t, std::filesystem::path>> find_numbered_files(
 
 namespace laterna {
 
-bool is_numbered(const std::filesystem::path& file) { return image::find_number_pattern(file).has_value(); }
+bool is_numbered(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return image::find_number_pattern(file).has_value() && !std::filesystem::is_regular_file(file, ignored);
+}
 
 }  // namespace laterna

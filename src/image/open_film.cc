@@ -2,13 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <system_error>
 
 #include "base/file_io.h"
 #include "base/without_exceptions.h"
 #include "image/decoder.h"
 #include "image/frame_reader.h"
-#include "image/numbered_files.h"
 
 namespace laterna::image {
 namespace {
@@ -23,10 +21,7 @@ std::vector<std::byte> read_signature(const std::filesystem::path& file) {
 }
 
 OpenedFilm open_any(const std::filesystem::path& file, double frames_per_second) {
-  std::error_code ignored;
-  // A file whose own name has a # in it is what was meant.
-  if (find_number_pattern(file) && !std::filesystem::is_regular_file(file, ignored))
-    return open_sequence(file, frames_per_second);
+  if (is_numbered(file)) return open_sequence(file, frames_per_second);
   const std::vector<std::byte> begin = read_signature(file);
   const std::string name = file.string();
   if (kGifDecoder.recognises({begin, name})) {
@@ -53,6 +48,13 @@ Result<FilmHeader> read_film_header(const std::filesystem::path& file, double fr
   const image::OpenedFilm film = image::open_film(file, frames_per_second);
   if (!film) return tl::unexpected(film.error());
   return (*film)->header();
+}
+
+Result<std::optional<std::size_t>> find_film_frame(const std::filesystem::path& file,
+                                                   const FilmTiming& timing, double scene_time) {
+  const image::OpenedFilm film = image::open_film(file, timing.frames_per_second);
+  if (!film) return tl::unexpected(film.error());
+  return image::frame_at((*film)->times(), timing, scene_time);
 }
 
 }  // namespace laterna

@@ -42,7 +42,7 @@ class SequenceReader final : public FrameReader {
 
 OpenedFilm open_sequence(const std::filesystem::path& pattern, double frames_per_second) {
   std::vector<std::filesystem::path> files;
-  if (find_number_pattern(pattern)) {
+  if (is_numbered(pattern)) {
     auto numbered = find_numbered_files(pattern);
     if (!numbered) return tl::unexpected(std::move(numbered.error()));
     for (auto& [number, file] : *numbered) files.push_back(std::move(file));

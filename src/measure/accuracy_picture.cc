@@ -80,6 +80,7 @@ std::string caption_of(const ShadowAccuracy& measured, int width, int scale) {
 }
 
 constexpr int kMostColumns = 5;
+constexpr int kLettersPerPicture = 24;  // "silhouette: 0.12 % wrong"
 constexpr Rgb kHeadingInk = {1, 1, 1};
 constexpr Rgb kCaptionInk = {0.6F, 0.6F, 0.6F};
 
@@ -105,8 +106,10 @@ struct Layout {
     shrink = (side + kLargestSide - 1) / kLargestSide;
     width = std::max(report.width / shrink, 1);
     height = std::max(report.height / shrink, 1);
-    constexpr int kWidthPerScale = 400;
-    text_scale = std::clamp(width / kWidthPerScale, 1, 4);
+    // A sheet is looked at as a whole: letters are a hundredth of its width, but leave room for a few words over a picture.
+    const int of_sheet = columns * width / (100 * image::kGlyphAdvance);
+    const int of_picture = width / (kLettersPerPicture * image::kGlyphAdvance);
+    text_scale = std::max(1, std::min(of_sheet, of_picture));
     line = (image::kGlyphHeight + 4) * text_scale;
     gap = 4 * text_scale;
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "measure/seen_geometry.h"
+
 namespace laterna::measure {
 namespace {
 
@@ -24,28 +26,6 @@ Scene with_flat_normals(Scene scene) {
   for (Light& light : scene.lights) light.enabled = false;
   scene.warnings.clear();
   return scene;
-}
-
-struct Geometry {
-  std::vector<float> object;
-  std::vector<glm::vec3> position_ws, normal_ws;
-};
-
-std::vector<glm::vec3> vectors(const LayeredImage& image, const std::string& layer) {
-  const std::vector<float>& x = image.find(layer + ".X")->values;
-  const std::vector<float>& y = image.find(layer + ".Y")->values;
-  const std::vector<float>& z = image.find(layer + ".Z")->values;
-  std::vector<glm::vec3> all(x.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = {x[i], y[i], z[i]};
-  return all;
-}
-
-Result<Geometry> draw_geometry(const Renderer& renderer, const View& view, RenderSettings settings) {
-  settings.shadows = ShadowTechnique::none;
-  settings.layers = {Layer::object, Layer::position, Layer::normal};
-  Result<LayeredImage> drawn = renderer.render(view, settings);
-  if (!drawn) return tl::unexpected(std::move(drawn.error()));
-  return Geometry{drawn->find("id.object")->values, vectors(*drawn, "P"), vectors(*drawn, "N")};
 }
 
 // Surfaces seen edge-on have pixels infinitely far apart: their steepness is held to this.
@@ -71,9 +51,9 @@ Result<PictureSurface> draw_picture_surface(const Renderer& renderer, const View
   const Result<Renderer> flat = Renderer::create(
       with_flat_normals(renderer.scene()), {renderer.threads(), renderer.instruction_set(), renderer.time()});
   if (!flat) return tl::unexpected(flat.error());
-  const Result<Geometry> seen = draw_geometry(renderer, view, settings);
+  const Result<SeenGeometry> seen = draw_geometry(renderer, view, settings);
   if (!seen) return tl::unexpected(seen.error());
-  Result<Geometry> drawn = draw_geometry(*flat, view, settings);
+  Result<SeenGeometry> drawn = draw_geometry(*flat, view, settings);
   if (!drawn) return tl::unexpected(std::move(drawn.error()));
 
   PictureSurface surface;

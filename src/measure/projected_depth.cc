@@ -3,6 +3,7 @@
 
 #include "laterna/measure.h"
 #include "measure/depth_ramp.h"
+#include "measure/seen_geometry.h"
 
 namespace laterna {
 namespace {
@@ -47,27 +48,21 @@ Result<LayeredImage> projected_depth(const Renderer& renderer, const View& camer
                                      const RenderSettings& settings, const std::string& light) {
   const Result<LightMaps> maps = draw_maps(renderer, light);
   if (!maps) return tl::unexpected(maps.error());
-  RenderSettings wanted = settings;
-  wanted.layers = {Layer::position, Layer::object};
-  wanted.shadows = ShadowTechnique::none;
-  Result<LayeredImage> drawn = renderer.render(camera, wanted);
-  if (!drawn) return drawn;
+  const Result<measure::SeenGeometry> seen = measure::draw_geometry(renderer, camera, settings);
+  if (!seen) return tl::unexpected(seen.error());
 
   std::vector<float> all;
   for (const LayeredImage& map : maps->maps)
     all.insert(all.end(), map.channels[0].values.begin(), map.channels[0].values.end());
   const measure::DepthRamp ramp(all);
-  const std::vector<float>& x = drawn->find("P.X")->values;
-  const std::vector<float>& y = drawn->find("P.Y")->values;
-  const std::vector<float>& z = drawn->find("P.Z")->values;
-  const std::vector<float>& object = drawn->find("id.object")->values;
   LayeredImage picture;
-  picture.width = drawn->width;
-  picture.height = drawn->height;
-  for (const char* name : {"R", "G", "B"}) picture.channels.push_back({name, drawn->find(name)->values});
-  for (std::size_t i = 0; i < object.size(); ++i) {
-    if (object[i] < 0) continue;
-    const std::optional<float> stored = stored_depth(*maps, {x[i], y[i], z[i]});
+  picture.width = settings.width;
+  picture.height = settings.height;
+  for (const char* name : {"R", "G", "B"})
+    picture.channels.push_back({name, seen->unshadowed.find(name)->values});
+  for (std::size_t i = 0; i < seen->object.size(); ++i) {
+    if (seen->object[i] < 0) continue;
+    const std::optional<float> stored = stored_depth(*maps, seen->position_ws[i]);
     const float grey = stored ? ramp.grey(*stored) : 0.0F;
     for (Channel& channel : picture.channels) channel.values[i] = grey;
   }

@@ -21,6 +21,9 @@ void add(Text& text, fmt::format_string<Values...> format, Values&&... values) {
   fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
 }
 
+// Without the sign that a zero may have: an axis turned by half a turn has it.
+glm::dvec3 plain(const glm::dvec3& v) { return v + glm::dvec3(0.0); }
+
 // A field of a CSV file.
 std::string csv_field(const std::string& value) {
   if (value.find_first_of(",\"\r\n") == std::string::npos) return value;
@@ -36,10 +39,10 @@ Text csv_of(const std::vector<Probe>& probes, const ProbeReport& report) {
   for (const std::string& light : report.lights) add(text, ",{}", csv_field("visibility." + light));
   add(text, "\r\n");
   for (std::size_t i = 0; i < std::min(probes.size(), report.readings.size()); ++i) {
-    const Probe& p = probes[i];
+    const glm::dvec3 at = plain(probes[i].position_ws), normal = plain(probes[i].normal_ws);
     const ProbeReading& reading = report.readings[i];
-    add(text, "{},{},{},{},{},{},{},{}", p.position_ws.x, p.position_ws.y, p.position_ws.z, p.normal_ws.x,
-        p.normal_ws.y, p.normal_ws.z, p.area, reading.lux);
+    add(text, "{},{},{},{},{},{},{},{}", at.x, at.y, at.z, normal.x, normal.y, normal.z, probes[i].area,
+        reading.lux);
     for (const ProbeReading::FromLight& light : reading.lights) add(text, ",{}", light.lux);
     for (const ProbeReading::FromLight& light : reading.lights) add(text, ",{}", light.visibility);
     add(text, "\r\n");
@@ -58,13 +61,12 @@ Text json_of(const std::vector<Probe>& probes, const ProbeReport& report) {
       "\"uniformity\": {}, \"lumens\": {}}},\n  \"probes\": [",
       probes.size(), s.least, s.greatest, s.mean, s.uniformity, s.lumens);
   for (std::size_t i = 0; i < std::min(probes.size(), report.readings.size()); ++i) {
-    const Probe& p = probes[i];
+    const glm::dvec3 at = plain(probes[i].position_ws), normal = plain(probes[i].normal_ws);
     const ProbeReading& reading = report.readings[i];
     add(text,
         "{}\n    {{\"position\": [{}, {}, {}], \"normal\": [{}, {}, {}], \"area_m2\": {}, \"lux\": {}, "
         "\"lights\": {{",
-        i == 0 ? "" : ",", p.position_ws.x, p.position_ws.y, p.position_ws.z, p.normal_ws.x, p.normal_ws.y,
-        p.normal_ws.z, p.area, reading.lux);
+        i == 0 ? "" : ",", at.x, at.y, at.z, normal.x, normal.y, normal.z, probes[i].area, reading.lux);
     for (std::size_t light = 0; light < reading.lights.size(); ++light) {
       add(text, "{}{}: {{\"lux\": {}, \"visibility\": {}}}", light == 0 ? "" : ", ",
           json_string(report.lights[light]), reading.lights[light].lux, reading.lights[light].visibility);

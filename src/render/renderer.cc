@@ -16,6 +16,7 @@
 #include "render/cost_sum.h"
 #include "render/depth_map_cache.h"
 #include "render/environment.h"
+#include "render/idle_projectors.h"
 #include "render/metadata.h"
 #include "render/open_sheets.h"
 #include "render/photograph_feathers.h"
@@ -101,6 +102,7 @@ struct Renderer::Implementation {
     if (!library) return tl::unexpected(std::move(library.error()));
     textures = std::make_shared<frame::TextureLibrary>(std::move(*library));
     meshes = clusters.take();
+    tell_warnings();
     return rebuild();
   }
 
@@ -113,6 +115,14 @@ struct Renderer::Implementation {
     environment = std::make_unique<const image::EnvironmentMap>(std::move(*map));
     split_sum = std::make_unique<const shade::SplitSum>(shade::make_split_sum(pool));
     return {};
+  }
+
+  // Of pictures, each once, however often they are loaded.
+  void tell_warnings() {
+    for (const Diagnostic& warning : textures->warnings()) {
+      if (std::find(scene.warnings.begin(), scene.warnings.end(), warning) == scene.warnings.end())
+        scene.warnings.push_back(warning);
+    }
   }
 
   // The frame anew, because what casts shadows has moved.
@@ -383,9 +393,6 @@ Result<Renderer> Renderer::create(Scene scene, const RendererOptions& options) {
     if (Result<void> built = implementation->load(); !built) return tl::unexpected(std::move(built.error()));
     if (Result<void> lit = implementation->load_environment(options); !lit)
       return tl::unexpected(std::move(lit.error()));
-    const std::vector<Diagnostic>& warnings = implementation->textures->warnings();
-    std::vector<Diagnostic>& told = implementation->scene.warnings;
-    told.insert(told.end(), warnings.begin(), warnings.end());
     return Renderer(std::move(implementation));
   });
 }
@@ -746,6 +753,10 @@ Result<std::vector<ShadowMapView>> Renderer::shadow_map_views(const std::string&
   const Result<light::PlannedLight> planned =
       Implementation::find_light(light::make_light_plan(self.frame, {settings.shadows, {}, &camera}), light);
   return planned.map(views_of);
+}
+
+std::vector<std::string> Renderer::idle_projectors() const {
+  return render::idle_projectors(implementation_->frame);
 }
 
 Result<View> Renderer::light_view(const std::string& name) const {

@@ -17,12 +17,6 @@ constexpr double kWidest = 2;
 constexpr int kRadiusSteps = 4096;
 constexpr double kFarthestRadius = 8;
 
-double radial_factor(const CameraDistortion& d, double r2) {
-  const double above = 1 + r2 * (d.k[0] + r2 * (d.k[1] + r2 * d.k[2]));
-  const double below = 1 + r2 * (d.k[3] + r2 * (d.k[4] + r2 * d.k[5]));
-  return above / below;
-}
-
 // The radius up to which what is farther out is seen farther out.
 double find_largest_radius(const CameraDistortion& d, double frame_radius) {
   double before = 0;
@@ -47,19 +41,19 @@ std::optional<glm::dvec2> pinhole_point(const CameraDistortion& d, const glm::dv
   }
   glm::dvec2 point = radius > 0 ? seen * (low / radius) : seen;
   for (int i = 0; i < 50; ++i) {
-    const glm::dvec2 miss = distort(d, point) - seen;
+    const glm::dvec2 miss = distorted(d, point) - seen;
     if (!(glm::length(miss) < 1e6)) return std::nullopt;
     if (glm::length(miss) < 1e-12) break;
     const double h = 1e-6;
     const glm::dvec2 dx =
-        (distort(d, point + glm::dvec2(h, 0)) - distort(d, point - glm::dvec2(h, 0))) / (2 * h);
+        (distorted(d, point + glm::dvec2(h, 0)) - distorted(d, point - glm::dvec2(h, 0))) / (2 * h);
     const glm::dvec2 dy =
-        (distort(d, point + glm::dvec2(0, h)) - distort(d, point - glm::dvec2(0, h))) / (2 * h);
+        (distorted(d, point + glm::dvec2(0, h)) - distorted(d, point - glm::dvec2(0, h))) / (2 * h);
     const double determinant = dx.x * dy.y - dy.x * dx.y;
     if (!(determinant > 1e-9)) return std::nullopt;  // folded over
     point -= glm::dvec2(dy.y * miss.x - dy.x * miss.y, dx.x * miss.y - dx.y * miss.x) / determinant;
   }
-  const bool has_arrived = glm::length(distort(d, point) - seen) < 1e-9;
+  const bool has_arrived = glm::length(distorted(d, point) - seen) < 1e-9;
   if (!has_arrived || glm::length(point) > largest_radius * (1 + 1e-9)) return std::nullopt;
   return point;
 }
@@ -131,13 +125,6 @@ class Resampler {
 
 }  // namespace
 
-glm::dvec2 distort(const CameraDistortion& d, const glm::dvec2& point) {
-  const double x = point.x, y = point.y, r2 = x * x + y * y;
-  const double factor = radial_factor(d, r2);
-  return {x * factor + 2 * d.p[0] * x * y + d.p[1] * (r2 + 2 * x * x),
-          y * factor + d.p[0] * (r2 + 2 * y * y) + 2 * d.p[1] * x * y};
-}
-
 PinholeFrame find_pinhole_frame(const Intrinsics& k, const CameraDistortion& distortion, std::string& fault) {
   const auto at = [&](double x, double y) { return glm::dvec2((x - k.cx) / k.fx, (y - k.cy) / k.fy); };
   const glm::dvec2 low = at(0, 0), high = at(k.width, k.height);
@@ -185,7 +172,7 @@ Image undistort(const Image& picture, const Intrinsics& k, const CameraDistortio
       const glm::dvec2 point(frame.left + (frame.right - frame.left) * (x + 0.5) / frame.width,
                              frame.top + (frame.bottom - frame.top) * (y + 0.5) / frame.height);
       const bool is_folded = glm::length(point) > frame.largest_radius;
-      const glm::dvec2 seen = distort(distortion, point);
+      const glm::dvec2 seen = distorted(distortion, point);
       resampler.write(x, y,
                       is_folded ? glm::dvec2(-1) : glm::dvec2(seen.x * k.fx + k.cx, seen.y * k.fy + k.cy));
     }

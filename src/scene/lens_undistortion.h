@@ -26,7 +26,4 @@ PinholeFrame find_pinhole_frame(const Intrinsics& intrinsics, const CameraDistor
 Image undistort(const Image& picture, const Intrinsics& intrinsics, const CameraDistortion& distortion,
                 const PinholeFrame& frame);
 
-/// The lens's point of a pinhole's, at unit distance.
-glm::dvec2 distort(const CameraDistortion& distortion, const glm::dvec2& point);
-
 }  // namespace laterna

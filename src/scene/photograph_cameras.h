@@ -1,7 +1,6 @@
 // Cameras of photographs, as files of several kinds have them, in one form.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -11,19 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/camera_distortion.h"
 #include "laterna/scene.h"
 #include "scene/fault_list.h"
 
 namespace laterna {
-
-/// OpenCV's lens: x' = x (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶) + 2 p1 x y + p2 (r² + 2 x²), and y' with
-/// p1 (r² + 2 y²) + 2 p2 x y; x, y a pinhole's coordinates at unit distance, y downward, and x', y' the lens's.
-struct CameraDistortion {
-  std::array<double, 6> k{};
-  std::array<double, 2> p{};
-
-  [[nodiscard]] bool is_none() const { return k == decltype(k){} && p == decltype(p){}; }
-};
 
 /// Focal lengths and principal point. (0, 0) is the top-left corner of the picture.
 struct Intrinsics {

@@ -121,9 +121,9 @@ class PhotographJoiner {
     for (PhotographCamera& camera : cameras) {
       const std::vector<std::size_t> found = photos.find(camera.photo);
       if (found.empty()) {
-        report_missing({camera.file, camera.place,
-                        fmt::format("there is no photograph {} in {}", in_quotes(camera.photo),
-                                    path_in_quotes(files_.photos.string()))});
+        cameras_missing_.push_back({camera.file, camera.place,
+                                    fmt::format("there is no photograph {} in {}", in_quotes(camera.photo),
+                                                path_in_quotes(files_.photos.string()))});
         continue;
       }
       if (found.size() > 1) {
@@ -145,21 +145,32 @@ class PhotographJoiner {
     }
     for (std::size_t i = 0; i < photos.files().size(); ++i) {
       if (taken.contains(i)) continue;
-      report_missing({photos.files()[i].string(),
-                      {},
-                      fmt::format("has no camera in {}", path_in_quotes(files_.cameras.string()))});
+      photos_missing_.push_back(
+          {photos.files()[i].string(),
+           {},
+           fmt::format("has no camera in {}", path_in_quotes(files_.cameras.string()))});
     }
+    report_missing(std::move(cameras_missing_), "cameras have no photograph");
+    report_missing(std::move(photos_missing_), "photographs have no camera");
     if (pairs_.empty() && faults_.empty())
       faults_.push_back({files_.photos.string(), {}, "holds no photograph that has a camera"});
   }
 
-  void report_missing(Diagnostic diagnostic) {
-    if (!files_.skips_missing) {
-      faults_.push_back(std::move(diagnostic));
-      return;
+  // The first by name: where a folder is wrong all are missing, for one reason.
+  void report_missing(std::vector<Diagnostic> missing, const char* what) {
+    constexpr std::size_t kMostNamed = 1;
+    std::vector<Diagnostic>& told = files_.skips_missing ? scene_.warnings : faults_;
+    const std::size_t more = missing.size() > kMostNamed + 1 ? missing.size() - kMostNamed : 0;
+    missing.resize(missing.size() - more);
+    for (Diagnostic& diagnostic : missing) {
+      if (files_.skips_missing) diagnostic.message += ": left out";
+      told.push_back(std::move(diagnostic));
     }
-    diagnostic.message += ": left out";
-    scene_.warnings.push_back(std::move(diagnostic));
+    if (more > 0) {
+      told.push_back({files_.photos.string(),
+                      {},
+                      fmt::format("{} more {}{}", more, what, files_.skips_missing ? ": left out" : "")});
+    }
   }
 
   // Its projection, and its picture where the lens bends it.
@@ -285,6 +296,7 @@ class PhotographJoiner {
   Scene& scene_;
   std::vector<Pair> pairs_;
   std::vector<Diagnostic> faults_;
+  std::vector<Diagnostic> cameras_missing_, photos_missing_;  // without the other
 };
 
 }  // namespace

@@ -63,6 +63,47 @@ class Frames(unittest.TestCase):
             seen.add(picture)
         self.assertEqual(len(seen), 5)
 
+    def ask(self, command, *arguments):
+        done = subprocess.run([LATERNA, command, str(SCENES / "stage.glb"), "--rig", str(self.at / "rig.json"), *arguments],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def test_info_tells_the_frame_of_a_time(self):
+        for time, frame in (("0", 0), ("0.25", 2), ("0.5", 3), ("0.8", 0)):
+            film = json.loads(self.ask("info", "--time", time, "--json").stdout)["pictures"][-1]
+            self.assertEqual((film["format"], film["size"], film["frames"]), ("numbered PNM", [5, 1], 5))
+            self.assertEqual((film["duration_s"], film["frame"]), (0.5, frame))
+        self.assertIn("5 frames, 0.500 s, now frame 2", self.ask("info", "--time", "0.25").stdout)
+
+    def test_every_command_takes_a_time(self):
+        probe = ("--probe", "0,1.1,-1.5,0,0,1", "--json")
+        at = [json.loads(self.ask("probe", "--time", t, *probe).stdout)["probes"][0]["lux"] for t in ("0", "0.2", "0.4")]
+        self.assertEqual(len(set(at)), 3)
+        self.ask("inspect", "--time", "0.2", "--light", "cinema", "--point", "0,1,-1")
+        self.ask("depthmap", "--time", "0.2", "--light", "cinema", "-o", str(self.at / "depth.png"))
+        self.ask("accuracy", "--time", "0.2", "--techniques", "map", "--size", "32x24", "--frames", "1")
+        self.ask("bench", "--time", "0.2", "--size", "32x24", "--frames", "1")
+
+    def test_where_the_picture_lands(self):
+        told = json.loads(self.ask("inspect", "--light", "cinema", "--json").stdout)
+        self.assertEqual(told["light"], "cinema")
+        self.assertEqual(told["pixels"], [5, 1])
+        self.assertAlmostEqual(told["pixel_pitch_mm"][0], 1000 * told["width_m"] / 5)
+        info = json.loads(self.ask("info", "--json").stdout)["lights"][-1]
+        self.assertEqual(info["picture"], told)
+        self.assertIn(f"at {told['throw_m']:.3f} m", self.ask("info").stdout)
+
+    def test_a_projector_that_meets_nothing_is_remarked(self):
+        self.assertNotIn("meets nothing", self.render("-o", str(self.at / "a.png")).stderr)
+        rig = json.loads(json.dumps(RIG))
+        rig["lights"][0]["target"] = [1.1, 1.45, 9]
+        (self.at / "rig.json").write_text(json.dumps(rig), encoding="utf-8")
+        done = self.render("-o", str(self.at / "b.png"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('note: the light of projector "cinema" meets nothing', done.stderr)
+        self.assertEqual(json.loads(self.ask("inspect", "--light", "cinema", "--json").stdout), None)
+
     def test_rates_are_fractions(self):
         done = self.render("--frames", "1001:1001", "--fps", "30000/1001", "-o", str(self.at / "x#.png"), "--json")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -81,7 +81,7 @@ class Gallery(unittest.TestCase):
 
     def test_every_figure_is_on_it_and_in_its_contents(self):
         figures = self.page.values("article", "id")
-        self.assertGreater(len(figures), 20)
+        self.assertGreater(len(figures), 30)
         self.assertEqual(figures, listed_figures())
         self.assertEqual([link[1:] for link in self.page.values("a", "href") if link.startswith("#")], figures)
         for figure in figures:
@@ -93,6 +93,10 @@ class Gallery(unittest.TestCase):
         self.assertEqual(len(self.page.values("img", "alt")), len(pictures))
         for picture, width, height in zip(pictures, self.page.values("img", "width"), self.page.values("img", "height")):
             content = (self.place / picture).read_bytes()
+            if picture.endswith(".svg"):
+                sides = re.search(rb'^<svg [^>]*width="(\d+)" height="(\d+)"', content)
+                self.assertEqual((int(sides[1]), int(sides[2])), (int(width), int(height)), picture)
+                continue
             self.assertEqual(content[:8], b"\x89PNG\r\n\x1a\n")
             columns, rows = struct.unpack(">II", content[16:24])
             self.assertEqual(int(width) * rows, int(height) * columns, picture)
@@ -110,6 +114,21 @@ class Gallery(unittest.TestCase):
             self.assertEqual(contents[0].keys(), contents[1].keys())
             for name, content in contents[0].items():
                 self.assertEqual(content, contents[1][name], name)
+
+    def test_captions_tell_what_was_measured(self):
+        with tempfile.TemporaryDirectory() as folder:
+            figures = ["throw", "lux", "headlights", "aircraft"]
+            done = gallery("--scale", "0.05", "-o", folder, *[x for f in figures for x in ("--only", f)])
+            self.assertEqual(done.returncode, 0, done.stderr)
+            text = (Path(folder) / "index.html").read_text(encoding="utf-8")
+        # Whatever the pictures' size: throw ratio 1.5 at 3 m; 3,000 lm on 2.25 m²; 1 % of 25 m; 30 m · tan −15° and 25°.
+        self.assertIn("2.00 m wide, from 0.96 to 2.08 m above the floor", text)
+        self.assertIn("gives 1333 to 1333 lx at 16 × 9 meters", text)
+        cut_off = float(re.search(r"find it ([\d.]+) cm below them", text)[1])
+        self.assertAlmostEqual(cut_off, 25, delta=0.75)
+        lightest = [float(x) for x in dict.fromkeys(re.findall(r"lightest (-?[\d.]+) m from", text))]
+        for found, expected in zip(lightest, [-8.04, 0, 13.99], strict=True):
+            self.assertAlmostEqual(found, expected, delta=0.05)
 
     def test_an_older_gallery_is_replaced(self):
         with tempfile.TemporaryDirectory() as folder:

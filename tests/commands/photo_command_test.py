@@ -63,9 +63,9 @@ class PhotoCommand(unittest.TestCase):
         self.assertTrue((self.folder / "mask.png").exists())
 
     def test_a_flight_writes_numbered_frames(self):
-        done = self.run_photo("-o", "frame.###.png", "--fly", "all", "--frames", "3", "--size", "32x24")
+        done = self.run_photo("-o", "frame.###.png", "--fly", "all", "--count", "3", "--size", "32x24")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(sorted(p.name for p in self.folder.glob("frame.*")), ["frame.001.png", "frame.002.png", "frame.003.png"])
+        self.assertEqual(sorted(p.name for p in self.folder.glob("frame.*")), ["frame.000.png", "frame.001.png", "frame.002.png"])
 
     def test_layers_are_in_the_file(self):
         done = self.run_photo("-o", "view.exr", "--from", "a", "--layers", "photographs", "--size", "32x24")

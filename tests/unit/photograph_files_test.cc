@@ -1,4 +1,5 @@
 // Photographs and their cameras, from every kind of file: the same camera sees the same point at the same pixel.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -226,7 +227,7 @@ TEST(PhotographFiles, LensDistortionIsRemoved) {
       for (int x = 0; x < kSide; ++x) {
         const glm::dvec2 seen((x + 0.5 - k.cx) / k.fx, (y + 0.5 - k.cy) / k.fy);
         glm::dvec2 point = seen;
-        for (int i = 0; i < 80; ++i) point += (seen - distort(lens, point)) * 0.7;
+        for (int i = 0; i < 80; ++i) point += (seen - distorted(lens, point)) * 0.7;
         photo.values<float>()[static_cast<std::size_t>(y * kSide + x)] = static_cast<float>(colour(point));
       }
     }
@@ -237,7 +238,7 @@ TEST(PhotographFiles, LensDistortionIsRemoved) {
       for (int x = 0; x < pinhole.width(); ++x) {
         const glm::dvec2 p(frame.left + (frame.right - frame.left) * (x + 0.5) / pinhole.width(),
                            frame.top + (frame.bottom - frame.top) * (y + 0.5) / pinhole.height());
-        const glm::dvec2 at = distort(lens, p) * glm::dvec2(k.fx, k.fy) + glm::dvec2(k.cx, k.cy);
+        const glm::dvec2 at = distorted(lens, p) * glm::dvec2(k.fx, k.fy) + glm::dvec2(k.cx, k.cy);
         const bool is_inside = at.x >= 0 && at.y >= 0 && at.x <= kSide && at.y <= kSide;
         EXPECT_EQ(pinhole.value(x, y, 1), is_inside ? 1 : 0);
         if (at.x < 2 || at.y < 2 || at.x > kSide - 2 || at.y > kSide - 2) continue;
@@ -248,6 +249,24 @@ TEST(PhotographFiles, LensDistortionIsRemoved) {
     EXPECT_GT(seen, kSide * kSide * 8 / 10);
     EXPECT_LT(worst, 0.002);
   }
+}
+
+// The wrong folder: all are missing for one reason, and the first says so.
+TEST(PhotographFiles, ManyThatAreMissingAreCounted) {
+  std::vector<std::string> photos;
+  std::string cameras = R"({"fx": 50, "fy": 50, "cx": 31.5, "cy": 23.5, "cameras": [)";
+  for (int i = 0; i < 9; ++i) {
+    photos.push_back(fmt::format("photos/p{}.png", i));
+    cameras += fmt::format("{}\n{{\"image\": \"c{}.png\", \"rvec\": [0,0,0], \"tvec\": [0,0,0]}}",
+                           i == 0 ? "" : ",", i);
+  }
+  PhotographFolder folder(photos);
+  folder.write("c.json", cameras + "]}");
+  EXPECT_EQ(folder.messages("c.json"),
+            "c.json: line 2: cameras[0].image: there is no photograph \"c0.png\" in \"photos\"\n"
+            "photos: 8 more cameras have no photograph\n"
+            "photos/p0.png: has no camera in \"c.json\"\n"
+            "photos: 8 more photographs have no camera");
 }
 
 TEST(PhotographFiles, WhatIsMissingIsNamed) {

@@ -1,6 +1,9 @@
 // Films in rigs.
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "laterna/render.h"
 #include "unit/gltf_builder.h"
 
 namespace laterna {
@@ -75,6 +78,81 @@ TEST(RigFilm, FaultsAreLocated) {
             at + "at_end: expected one of \"loop\", \"hold\", \"black\", \"ping_pong\", got \"stop\"");
   EXPECT_EQ(said(R"("film": "no.mp4")"), at + "film: \"no.mp4\" not found (tried \"no.mp4\")");
   EXPECT_EQ(said(R"("film": "")"), at + "film: the file name is empty");
+}
+
+// A file whose own name has a # or %d in it is what was meant, before any pattern.
+TEST(RigFilm, NamesThatLookLikePatterns) {
+  const TemporaryFolder folder;
+  for (const char* name : {"night#1.pgm", "half%d.pgm"}) {
+    folder.write(name, std::string_view("P5 4 2 255\n........"));
+    EXPECT_FALSE(is_numbered(folder / name));
+    const Result<Scene> scene = load(folder, {R"("yfov_deg": 30, "film": ")" + std::string(name) + '"'});
+    ASSERT_TRUE(scene) << to_string(scene.error());
+    const Result<FilmHeader> header = read_film_header(scene->pictures[0].file);
+    ASSERT_TRUE(header) << to_string(header.error());
+    EXPECT_EQ(header->frames, 1U);
+  }
+  EXPECT_TRUE(is_numbered(folder / "night#.pgm"));
+}
+
+TEST(RigFilm, WhichFrameIsShown) {
+  const TemporaryFolder folder;
+  write_frames(folder);
+  const FilmTiming timing{.frames_per_second = 2, .start = 1, .rate = 1, .at_end = AtEnd::black};
+  const auto shown = [&](double time) { return find_film_frame(folder / "f.#.pgm", timing, time).value(); };
+  EXPECT_EQ(shown(0.9), std::nullopt);
+  EXPECT_EQ(shown(1), 0U);
+  EXPECT_EQ(shown(2.4), 2U);
+  EXPECT_EQ(shown(3.1), std::nullopt);
+  EXPECT_FALSE(find_film_frame(folder / "g.#.pgm", timing, 0));
+}
+
+// A film given as a slide: the message says where it belongs.
+TEST(RigFilm, AVideoAsASlide) {
+  const TemporaryFolder folder;
+  const std::array<std::pair<const char*, std::string>, 3> files = {
+      {{"clip.mp4", std::string("\0\0\0\x20", 4) + "ftypisom........"},
+       {"clip.mkv", "\x1a\x45\xdf\xa3............"},
+       {"clip.avi", "RIFF....AVI LIST...."}}};
+  for (const auto& [name, content] : files) {
+    folder.write(name, std::string_view(content));
+    const std::string said =
+        messages_of(load(folder, {R"("hfov_deg": 30, "slide": ")" + std::string(name) + '"'}), folder.path());
+    EXPECT_EQ(said.rfind("r.json: line 2: lights[0].slide: " + std::string(name) + ": expected a PNG", 0), 0U)
+        << said;
+    EXPECT_NE(said.find("film: a rig's \"film\" takes it, not its \"slide\""), std::string::npos) << said;
+  }
+}
+
+// A film that ends early is told of when it becomes a light's slide later, once.
+TEST(RigFilm, WarningsOfAFilmThatASlideBecomes) {
+  const TemporaryFolder folder;
+  // A GIF of one pixel whose second frame is cut off.
+  const std::string gif("GIF89a\1\0\1\0\x80\0\0\0\0\0\xff\xff\xff\x2c\0\0\0\0\1\0\1\0\0\2\2D\1\0\x2c\0\0",
+                        37);
+  folder.write("cut.gif", std::string_view(gif));
+  Result<Scene> scene = load(folder, {R"("yfov_deg": 30)"});
+  ASSERT_TRUE(scene) << to_string(scene.error());
+  Picture film;
+  film.name = "cut.gif";
+  film.file = folder / "cut.gif";
+  film.film = FilmTiming{};
+  scene->pictures.push_back(film);
+  Result<Renderer> renderer = Renderer::create(*scene);
+  ASSERT_TRUE(renderer) << to_string(renderer.error());
+  const std::size_t before = renderer->scene().warnings.size();
+  Light light = renderer->scene().lights[0];
+  light.slide = 0;
+  const Result<void> set = renderer->set_light(0, light);
+  ASSERT_TRUE(set) << to_string(set.error());
+  ASSERT_EQ(renderer->scene().warnings.size(), before + 1);
+  EXPECT_NE(renderer->scene().warnings.back().message.find("the file ends here"), std::string::npos);
+  light.slide = -1;
+  ASSERT_TRUE(renderer->set_light(0, light));
+  light.slide = 0;
+  light.slide_is_intensity = true;  // another use: loaded again
+  ASSERT_TRUE(renderer->set_light(0, light));
+  EXPECT_EQ(renderer->scene().warnings.size(), before + 1);
 }
 
 TEST(RigFilm, ScenesBuiltInCode) {

@@ -34,6 +34,9 @@ Chapter wikipedia_chapter();
 Chapter bentley_chapter();
 Chapter environment_chapter();
 Chapter later_chapter();
+Chapter lens_chapter();
+Chapter photograph_chapter();
+Chapter lamp_chapter();
 
 /// A picture of a figure, once it is drawn.
 struct Panel {

@@ -32,6 +32,7 @@ article { background: var(--card); border: 1px solid var(--line); border-radius:
 .pictures { display: grid; gap: 16px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 300px), 1fr)); margin: 16px 0; }
 .pictures.few { grid-template-columns: repeat(auto-fill, minmax(min(100%, 400px), 1fr)); }
 figure { margin: 0; }
+figure.wide { grid-column: 1 / -1; }
 figure img { display: block; width: 100%; height: auto; border: 1px solid var(--line); border-radius: 4px; }
 figure img.detail { image-rendering: pixelated; }
 figcaption { font-size: .9rem; color: var(--soft); margin-top: 4px; }
@@ -62,12 +63,14 @@ std::string panel_html(const Panel& panel) {
         "<figcaption>{}</figcaption></figure>\n",
         caption);
   }
+  // Rows of frames take the whole width.
+  const bool is_wide = panel.width > 2 * panel.height;
   return fmt::format(
-      "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" width=\"{2}\" height=\"{3}\"{4} "
+      "<figure{5}><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" width=\"{2}\" height=\"{3}\"{4} "
       "loading=\"lazy\"></a>"
       "<figcaption>{1}</figcaption></figure>\n",
       panel.file, caption, panel.width * panel.magnification, panel.height * panel.magnification,
-      panel.magnification > 1 ? " class=\"detail\"" : "");
+      panel.magnification > 1 ? " class=\"detail\"" : "", is_wide ? " class=\"wide\"" : "");
 }
 
 std::string figure_html(const DrawnFigure& drawn) {
@@ -121,8 +124,8 @@ std::string gallery_page(const std::vector<DrawnChapter>& chapters) {
       "<h1>The figures of the papers, re-made</h1>\n"
       "<p>Four texts taught the world how projected light and its shadows are drawn. Here is what they show, "
       "drawn anew "
-      "on scenes of our own, with what each technique gets wrong said beside it. A click on a picture shows "
-      "it in its own "
+      "on scenes of our own, with what each technique gets wrong said beside it; after that lenses, films, "
+      "photographs and lamps, with what was measured in them. A click on a picture shows it in its own "
       "size.</p>\n",
       kStyle);
   html += contents(chapters) + "</header>\n<main>\n";

@@ -146,6 +146,122 @@ Image paint_grid(int width, int height, const std::function<glm::vec2(glm::vec2)
   });
 }
 
+Image paint_focus_chart(int width, int height) {
+  const float aspect = static_cast<float>(width) / static_cast<float>(3 * height);
+  return paint(width, height, [aspect](glm::vec2 p) {
+    const glm::vec2 q(fraction(3 * p.x), p.y);
+    if (std::min({q.x * aspect, (1 - q.x) * aspect, q.y, 1 - q.y}) < 0.02F)
+      return glm::vec3(0.92F, 0.25F, 0.12F);
+    if (q.y < 0.5F) return glm::vec3(fraction(1.5F * q.x + 14 * q.x * q.x) < 0.5F ? 0.05F : 0.95F);
+    const glm::vec2 cell(4 * q.x, 4 * (q.y - 0.5F));
+    const glm::vec2 from_dot = (glm::vec2(fraction(cell.x), fraction(cell.y)) - 0.5F) * glm::vec2(aspect, 1);
+    return glm::vec3(glm::length(from_dot) < 0.10F ? 1.0F : 0.02F);
+  });
+}
+
+Image paint_dot(int side, float diameter) {
+  return paint(side, side,
+               [=](glm::vec2 p) { return glm::vec3(glm::length(p - 0.5F) < diameter / 2 ? 1.0F : 0.0F); });
+}
+
+Image paint_leader(int width, int height, int number, int count) {
+  const float aspect = static_cast<float>(width) / static_cast<float>(height);
+  const double turns = static_cast<double>(number) / count;
+  const glm::vec2 hand(point_of_circle(turns - 0.25));  // clockwise from the top, y downward
+  const auto is_clockwise = [](glm::vec2 from, glm::vec2 to) { return from.x * to.y - from.y * to.x >= 0; };
+  return paint(width, height, [=](glm::vec2 p) {
+    const glm::vec2 q = (p - glm::vec2(0.5F, 0.46F)) * glm::vec2(aspect, 1);
+    const float out = glm::length(q);
+    const bool is_swept =
+        number >= count || (turns <= 0.5 ? is_clockwise({0, -1}, q) && is_clockwise(q, hand)
+                                         : is_clockwise({0, -1}, q) || is_clockwise(q, hand));
+    glm::vec3 colour =
+        number > 0 && is_swept ? glm::vec3(0.95F, 0.62F, 0.20F) : glm::vec3(0.86F, 0.84F, 0.78F);
+    if (std::min(std::abs(q.x), std::abs(q.y)) < 0.006F || std::abs(out - 0.36F) < 0.008F ||
+        std::abs(out - 0.30F) < 0.008F) {
+      colour = glm::vec3(0.12F);
+    }
+    for (int dot = 0; dot < number; ++dot) {
+      const glm::vec2 place(0.10F * (static_cast<float>(dot) - 0.5F * static_cast<float>(number - 1)), 0.46F);
+      if (glm::length(q - place) < 0.03F) colour = glm::vec3(0.75F, 0.10F, 0.08F);
+    }
+    return colour;
+  });
+}
+
+Image paint_house_front(int width, int height) {
+  return paint(width, height, [](glm::vec2 p) {
+    const glm::vec2 cell = p * glm::vec2(4, 3);
+    const int column = whole(cell.x);
+    const int row = whole(cell.y);
+    const glm::vec2 q = glm::vec2(fraction(cell.x), fraction(cell.y)) - glm::vec2(0.5F, 0.52F);
+    const glm::vec2 a = glm::abs(q);
+    constexpr std::array<glm::vec3, 4> kShutters = {
+        {{0.20F, 0.42F, 0.34F}, {0.62F, 0.20F, 0.16F}, {0.20F, 0.34F, 0.58F}, {0.76F, 0.52F, 0.16F}}};
+    if (a.x < 0.15F && a.y < 0.30F) {  // panes behind a cross
+      const bool is_frame = a.x > 0.13F || a.y > 0.28F || a.x < 0.012F || std::abs(q.y + 0.08F) < 0.012F;
+      return is_frame ? glm::vec3(0.93F, 0.91F, 0.86F)
+                      : glm::vec3(0.25F, 0.33F, 0.42F) + 0.25F * scatter(column, row) * (0.3F - q.y);
+    }
+    if (a.x < 0.30F && a.y < 0.30F) {  // shutters with their laths
+      const auto n = static_cast<std::size_t>(3.999F * scatter(column + 5, row));
+      return kShutters.at(n) * (fraction(cell.y * 24) < 0.25F ? 0.72F : 1.0F);
+    }
+    if (a.x < 0.34F && q.y > 0.30F && q.y < 0.345F) return glm::vec3(0.80F, 0.78F, 0.74F);
+    if (fraction(cell.y) < 0.05F) return glm::vec3(0.86F, 0.80F, 0.68F);
+    const float grain = scatter(whole(p.x * 160), whole(p.y * 120));
+    return glm::vec3(0.84F, 0.68F, 0.42F) * (0.94F + 0.06F * grain);
+  });
+}
+
+namespace {
+
+Image paint_intensity(int width, int height, const std::function<float(glm::vec2)>& intensity) {
+  Image image(width, height, 1, PixelType::u16, Transfer::linear);
+  const std::span<std::uint16_t> values = image.values<std::uint16_t>();
+  const glm::vec2 size(width, height);
+  std::size_t i = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float value = std::clamp(intensity((glm::vec2(x, y) + 0.5F) / size), 0.0F, 1.0F);
+      values[i++] = static_cast<std::uint16_t>(std::lround(65535 * value));
+    }
+  }
+  return image;
+}
+
+/// 1 in the middle, ¼ at ±1, and soon nothing.
+float bell(float x) { return 1 / ((1 + x * x) * (1 + x * x)); }
+
+}  // namespace
+
+Image paint_dipped_beam(int width) {
+  constexpr BeamFrame kFrame = kDippedBeam;
+  const float height = static_cast<float>(width) * (kFrame.top - kFrame.bottom) / (2 * kFrame.right);
+  return paint_intensity(width, static_cast<int>(std::lround(height)), [&](glm::vec2 p) {
+    const float right = (2 * p.x - 1) * kFrame.right;
+    const float up = glm::mix(kFrame.top, kFrame.bottom, p.y);
+    constexpr float kDip = 0.01F;
+    constexpr float kRise = 0.26794919F;  // tan 15°
+    constexpr float kEdge = 0.002F;       // half the width of the cut-off
+    const float below = std::max(right, 0.0F) * kRise - kDip - up;
+    // A hot spot close under the cut-off, and a wide carpet of light.
+    const float lit = 0.75F * bell((right - 0.02F) / 0.12F) * bell(below / 0.06F) +
+                      0.25F * bell(right / 0.4F) * bell(below / 0.15F);
+    const float within = (1 - glm::smoothstep(0.75F, 1.0F, std::abs(right) / kFrame.right)) *
+                         (1 - glm::smoothstep(0.6F, 1.0F, up / kFrame.bottom));
+    constexpr float kStray = 0.004F;
+    return within * (kStray + lit * glm::smoothstep(-kEdge, kEdge, below));
+  });
+}
+
+Image paint_round_beam(int side) {
+  return paint_intensity(side, side, [](glm::vec2 p) {
+    const float out = 2 * glm::length(p - 0.5F);
+    return bell(2.94F * out) * (1 - glm::smoothstep(0.8F, 1.0F, out));
+  });
+}
+
 Image paint_star(int side) {
   Image image(side, side, 1, PixelType::u8, Transfer::linear);
   const std::span<std::uint8_t> values = image.values<std::uint8_t>();

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "laterna/accuracy.h"
+#include "laterna/false_color.h"
 #include "laterna/measure.h"
+#include "laterna/polar_plot.h"
 
 namespace laterna::app {
 namespace {
@@ -74,13 +76,7 @@ Shot Shot::with(ShadowTechnique technique) const {
   return shot;
 }
 
-struct Sitting::Drawing {
-  Renderer renderer;
-  View view;
-  RenderSettings settings;
-};
-
-Result<Sitting::Drawing> Sitting::set_up(const Shot& shot) const {
+Result<Drawing> Sitting::set_up(const Shot& shot) const {
   Result<Renderer> renderer = Renderer::create(shot.scene, darkroom_.renderer);
   if (!renderer) return tl::unexpected(renderer.error());
   const Result<Pose> pose = Pose::look_at(shot.camera.from, shot.camera.to, {0, 1, 0});
@@ -100,9 +96,11 @@ Result<LayeredImage> Sitting::draw(const Shot& shot) const {
   return drawing->renderer.render(drawing->view, drawing->settings);
 }
 
-std::string Sitting::next_file() { return fmt::format("{}-{}.png", id_, panels_.size() + 1); }
+std::string Sitting::next_file(const char* ending) const {
+  return fmt::format("{}-{}.{}", id_, panels_.size() + 1, ending);
+}
 
-void Sitting::add(std::string caption, Result<LayeredImage> image, int magnification) {
+void Sitting::add(std::string caption, Result<LayeredImage> image, int magnification, double stops) {
   if (!outcome_) return;
   if (!image) {
     outcome_ = tl::unexpected(image.error());
@@ -111,7 +109,9 @@ void Sitting::add(std::string caption, Result<LayeredImage> image, int magnifica
   std::erase_if(image->channels,
                 [](const Channel& c) { return c.name != "R" && c.name != "G" && c.name != "B"; });
   Panel panel{next_file(), std::move(caption), image->width, image->height, magnification};
-  outcome_ = write_image(*image, darkroom_.folder / panel.file);
+  WriteOptions options;
+  options.exposure = exposure_from_stops(stops);
+  outcome_ = write_image(*image, darkroom_.folder / panel.file, options);
   panels_.push_back(std::move(panel));
 }
 
@@ -123,7 +123,7 @@ bool Sitting::can_draw(const std::string& caption, const Shot& shot) {
 }
 
 void Sitting::picture(std::string caption, const Shot& shot) {
-  if (can_draw(caption, shot)) add(std::move(caption), draw(shot));
+  if (can_draw(caption, shot)) add(std::move(caption), draw(shot), 1, shot.stops);
 }
 
 void Sitting::detail(std::string caption, const Shot& shot, const Detail& part) {
@@ -184,6 +184,23 @@ void Sitting::image(std::string caption, const Image& image) {
   if (!outcome_) return;
   Panel panel{next_file(), std::move(caption), image.width(), image.height(), 1};
   outcome_ = write_image(image, darkroom_.folder / panel.file);
+  panels_.push_back(std::move(panel));
+}
+
+void Sitting::false_color(std::string caption, const Shot& shot, const Amounts& amounts) {
+  if (!can_draw(caption, shot)) return;
+  Shot layered = shot;
+  layered.settings.layers = {amounts.layer};
+  const Result<LayeredImage> image = draw(layered);
+  add(std::move(caption),
+      image ? false_color_picture(*image, amounts.channel, {amounts.maximum, amounts.unit, true}) : image);
+}
+
+void Sitting::polar_plot(std::string caption, const LightDistribution& lamp) {
+  if (!outcome_) return;
+  constexpr int kWidth = 640, kHeight = 720;  // of the document
+  Panel panel{next_file("svg"), std::move(caption), kWidth, kHeight, 1};
+  outcome_ = write_polar_plot(lamp, darkroom_.folder / panel.file);
   panels_.push_back(std::move(panel));
 }
 

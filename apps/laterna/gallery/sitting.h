@@ -3,10 +3,13 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "figure.h"
+#include "laterna/lamps.h"
 #include "laterna/render.h"
 #include "scenery.h"
 
@@ -18,7 +21,8 @@ struct Shot {
   Gaze camera;
   Angle yfov = Angle::degrees(34);
   RenderSettings
-      settings;  ///< its size, in pixels, is that of the page's large pictures unless set otherwise
+      settings;      ///< its size, in pixels, is that of the page's large pictures unless set otherwise
+  double stops = 0;  ///< exposure of the picture
 
   Shot();
   /// The same with its shadows found in another way.
@@ -44,6 +48,20 @@ struct Darkroom {
   RendererOptions renderer;
 };
 
+/// A shot made ready.
+struct Drawing {
+  Renderer renderer;
+  View view;
+  RenderSettings settings;  ///< with the size that the pictures of the page have
+};
+
+/// An amount of light as colours.
+struct Amounts {
+  Layer layer = Layer::lux;
+  std::string channel = "lux.Y", unit = "lx";
+  double maximum = 0;  ///< end of the scale; 0: found
+};
+
 /// After the first error nothing more is drawn, and error() tells it.
 class Sitting {
  public:
@@ -64,6 +82,28 @@ class Sitting {
   void image(std::string caption, const Image& image);
   /// A picture with each technique, and below it what `laterna accuracy` says of it.
   void techniques(const Shot& shot);
+  /// A layer as false colours, with a scale and iso-lines.
+  void false_color(std::string caption, const Shot& shot, const Amounts& amounts);
+  /// The polar intensity diagram of a measured lamp.
+  void polar_plot(std::string caption, const LightDistribution& lamp);
+  /// A picture that was put together elsewhere.
+  void print(std::string caption, Result<LayeredImage> picture, int magnification = 1, double stops = 0) {
+    add(std::move(caption), std::move(picture), magnification, stops);
+  }
+
+  /// For what no picture above is: the shot made ready; nothing after an error.
+  std::optional<Drawing> prepare(const Shot& shot) { return outcome_ ? accept(set_up(shot)) : std::nullopt; }
+  /// The value; or nothing, and the figure ends with the error.
+  template <class Value>
+  std::optional<Value> accept(Result<Value> result) {
+    if (result) return std::move(*result);
+    if (outcome_) outcome_ = tl::unexpected(std::move(result.error()));
+    return std::nullopt;
+  }
+  /// Where a figure may put files of its own for the time that it is drawn.
+  [[nodiscard]] const std::filesystem::path& folder() const { return darkroom_.folder; }
+  [[nodiscard]] double scale() const { return darkroom_.scale; }
+
   /// How much of a light arrives in each pixel, one sample each; empty after an error.
   Visibility visibility(const Shot& shot, const std::string& light);
 
@@ -71,14 +111,13 @@ class Sitting {
   [[nodiscard]] const Result<void>& outcome() const { return outcome_; }
 
  private:
-  struct Drawing;
   [[nodiscard]] Result<Drawing> set_up(const Shot& shot) const;
   [[nodiscard]] Result<LayeredImage> draw(const Shot& shot) const;
   /// Writes it as the figure's next picture.
-  void add(std::string caption, Result<LayeredImage> image, int magnification = 1);
+  void add(std::string caption, Result<LayeredImage> image, int magnification = 1, double stops = 0);
   /// Whether the picture can be drawn; otherwise the figure says why not.
   bool can_draw(const std::string& caption, const Shot& shot);
-  std::string next_file();
+  [[nodiscard]] std::string next_file(const char* ending = "png") const;
 
   const Darkroom& darkroom_;
   std::string id_;
