@@ -99,7 +99,7 @@ Result<std::vector<TimedOutput>> FrameOptions::outputs(double time, const std::s
   return outputs;
 }
 
-Result<VideoRate> TimeOptions::video_rate() const {
+Result<VideoRate> FrameOptions::video_rate() const {
   const Result<FrameRate> rate = parse_rate(fps);
   if (!rate) return tl::unexpected(rate.error());
   // What was typed with up to six decimals is a ratio of whole numbers.
