@@ -645,6 +645,13 @@ void declare_render(CLI::App& app, Run& run) {
       ->required();
   o.view.declare(*command);
   o.frames.declare(*command);
+  o.film.declare(*command);
+  command->add_flag(
+      "--resume", o.resume,
+      "of --frames: leave pictures that are there as they are; the last of them is drawn once more and\n"
+      "compared, so that frames of other settings do not mix");
+  command->add_flag("--turntable", o.turntable,
+                    "the camera goes round the scene's middle once while --frames run; lights stay");
   declare_picture_options(*command, o);
   std::vector<std::string> layers = {"all"};
   for (const LayerDescription& layer : list_layers()) layers.emplace_back(layer.name);
