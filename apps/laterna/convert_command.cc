@@ -51,8 +51,13 @@ void tell(const Scene& scene, const std::string& output) {
 int run_convert(const Options& options) {
   if (const Result<void> possible = check_scene_output(options.output); !possible)
     return report(possible.error());
-  const Result<Scene> scene = options.scene.load();
+  Result<Scene> scene = options.scene.load();
   if (!scene) return report(scene.error());
+  if (!scene->clips.empty()) {
+    if (std::vector<Diagnostic> faults = validate(*scene); !faults.empty())
+      return report(Error(Failure::bad_input, std::move(faults)));
+    pose_scene(*scene, options.scene.time);
+  }
   const Result<std::vector<Diagnostic>> written =
       write_scene(*scene, options.output, SceneWriteOptions{.embeds = options.embeds});
   if (!written) return report(written.error());
@@ -71,7 +76,11 @@ void declare_convert(CLI::App& app, Run& run) {
   command->add_flag("--embed", options->embeds,
                     "a .gltf of one piece: geometry, pictures and lamps inside it, as a .glb has them");
   command->footer(
-      "\nWhat is written is what `laterna render` shows: its pictures are the same, bit for bit. Other "
+      "\nWhat is written is what `laterna render` shows at --time: its pictures are the same, bit for bit, "
+      "but "
+      "for what\n"
+      "a warning tells is not carried: animation, skins, layers on surfaces, environments, photographs. "
+      "Other "
       "programs see\n"
       "projectors as spotlights; what only Laterna knows is in the glTF extensions LATERNA_projector and\n"
       "LATERNA_lighting, which they pass over. Beside a .gltf lie its .bin and those pictures that are not "

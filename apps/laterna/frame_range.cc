@@ -73,6 +73,10 @@ void FrameOptions::declare(CLI::App& command) {
   command.add_option("--fps", fps, "of --frames: frame k is at k/fps seconds; 30000/1001 is understood")
       ->needs("--frames")
       ->capture_default_str();
+  command.add_option("--shutter", shutter,
+                     "seconds for which the shutter is open, half of them before each picture's time and "
+                     "half after, as 0.02\n"
+                     "or 1/48: what moves is blurred; needs --accumulate, the number of instants");
 }
 
 Result<std::vector<TimedOutput>> FrameOptions::outputs(double time, const std::string& output) const {
@@ -97,6 +101,20 @@ Result<std::vector<TimedOutput>> FrameOptions::outputs(double time, const std::s
     outputs.push_back({seconds, name ? name->with(k) : output});
   }
   return outputs;
+}
+
+Result<double> FrameOptions::shutter_seconds() const {
+  if (shutter.empty()) return 0.0;
+  const std::size_t slash = shutter.find('/');
+  const std::string_view all = shutter;
+  const auto numerator = parse<double>(all.substr(0, slash));
+  const auto denominator = slash == std::string::npos ? 1.0 : parse<double>(all.substr(slash + 1));
+  if (numerator && denominator && *denominator > 0 && *numerator / *denominator > 0 &&
+      *numerator / *denominator <= kMaxSceneTime) {
+    return *numerator / *denominator;
+  }
+  return tl::unexpected(bad_option(
+      fmt::format("--shutter: expected seconds greater than 0, such as 0.02 or 1/48, got \"{}\"", shutter)));
 }
 
 Result<VideoRate> FrameOptions::video_rate() const {

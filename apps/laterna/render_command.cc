@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -244,6 +245,9 @@ class RenderCommand {
       if (!choice) return report(choice.error());
       false_color_ = std::move(*choice);
     }
+    const Result<double> shutter = options_.frames.shutter_seconds();
+    if (!shutter) return report(shutter.error());
+    shutter_ = *shutter;
     if (const std::string fault = find_output_fault(*settings); !fault.empty())
       return report(bad_option(fault));
     const Result<std::vector<TimedOutput>> outputs =
@@ -254,7 +258,7 @@ class RenderCommand {
     at_first.time = outputs->front().seconds;
     Result<Renderer> renderer = at_first.make_renderer([&](Scene& scene) {
       if (*background) scene.background = *background;
-      if (scene.environment && options_.background == "transparent") scene.environment->visible = false;
+      if (scene.environment && !options_.background.empty()) scene.environment->visible = false;
     });
     if (!renderer) return report(renderer.error());
     const Result<View> view = options_.view.find(*renderer, {settings->width, settings->height});
@@ -278,10 +282,17 @@ class RenderCommand {
       return "--false-colour takes the picture's place: leave --debug, --layers and --layer-pictures out";
     if (options_.progressive && !shows_light())
       return "--progressive is for pictures of light: leave --debug and --false-colour out";
+    if (options_.progressive && options_.frames.is_series())
+      return "--progressive is for one picture: of a series, what is not finished would pass for a frame "
+             "that is";
     if (options_.progressive && options_.output == "-")
       return "--progressive and -o - would write several pictures to standard output";
     if (options_.json && options_.output == "-") return "--json and -o - would both write to standard output";
     if (std::string fault = find_film_fault(settings); !fault.empty()) return fault;
+    if (shutter_ > 0 && settings.accumulate == 1)
+      return "--shutter needs --accumulate N: the picture is the mean of so many instants";
+    if (shutter_ > 0 && !shows_light())
+      return "--shutter is for pictures of light: leave --debug and --false-colour out";
     if (options_.turntable && !options_.frames.is_series())
       return "--turntable needs --frames, over which it turns";
     if (options_.turntable && !options_.view.from_light.empty())
@@ -308,7 +319,6 @@ class RenderCommand {
     if (!options_.frames.is_series()) return "a film needs --frames FIRST:LAST";
     if (options_.background == "transparent") return "--background transparent: films are opaque";
     if (options_.depth != "auto" && options_.depth != "8") return "--depth: films have 8 bits";
-    if (options_.progressive) return "--progressive is for pictures, not for films";
     if (!settings.layers.empty())
       return "--layers: only OpenEXR holds layers: give numbered pictures, out.####.exr";
     return {};
@@ -444,12 +454,22 @@ class RenderCommand {
     }
   }
 
-  // The view of a frame for which the renderer's time is set. `first`: the series' first; `turn`: how far it has come, 0 to 1.
-  [[nodiscard]] Result<View> view_of_frame(const Renderer& renderer, const View& first, double turn) const {
-    if (turn == 0) return first;
-    const Result<View> view = options_.view.follow(renderer, {settings_.width, settings_.height}, first);
+  // A series as the camera goes through it.
+  struct Course {
+    View first;                         // view
+    double first_time = 0;              // of its first frame
+    double duration = 0;                // from the first frame to where the next after the last would be
+    double frame_time = 0, turned = 0;  // of the frame that is drawn; how far it has come, 0 to 1
+  };
+
+  // The view at the renderer's time.
+  [[nodiscard]] Result<View> view_now(const Renderer& renderer) const {
+    if (renderer.time() == course_.first_time) return course_.first;
+    const Result<View> view =
+        options_.view.follow(renderer, {settings_.width, settings_.height}, course_.first);
     if (!view || !options_.turntable) return view;
-    return turned_about(*view, turntable_centre_ws_, turn);
+    const double beside = (renderer.time() - course_.frame_time) / course_.duration;
+    return turned_about(*view, turntable_centre_ws_, course_.turned + beside);
   }
 
   // Frame number `index`. `first`: the view of number 0. `told` gets what there is to tell in JSON, but for what writing costs.
@@ -458,8 +478,12 @@ class RenderCommand {
     const TimedOutput& output = outputs[index];
     const Result<int> changed = renderer.set_time(output.seconds);
     if (!changed) return tl::unexpected(changed.error());
-    const Result<View> view =
-        view_of_frame(renderer, first, static_cast<double>(index) / static_cast<double>(outputs.size()));
+    const auto count = static_cast<double>(outputs.size());
+    const double first_time = outputs.front().seconds;
+    const double duration = outputs.size() > 1 ? (outputs[1].seconds - first_time) * count
+                                               : std::numeric_limits<double>::infinity();
+    course_ = {first, first_time, duration, output.seconds, static_cast<double>(index) / count};
+    const Result<View> view = view_now(renderer);
     if (!view) return tl::unexpected(view.error());
     output_ = output.file;
     float exposure = exposure_;
@@ -493,7 +517,7 @@ class RenderCommand {
     return write_picture(std::move(picture.image), picture.file, picture.exposure);
   }
 
-  Result<LayeredImage> draw_image(const Renderer& renderer, const View& view, const Progress& progress,
+  Result<LayeredImage> draw_image(Renderer& renderer, const View& view, const Progress& progress,
                                   RenderStatistics& statistics) const {
     if (false_color_) return draw_false_color(renderer, view, settings_, *false_color_, statistics);
     if (!debug_) return draw_light(renderer, view, progress, statistics);
@@ -503,7 +527,7 @@ class RenderCommand {
     return std::move(shown->picture);
   }
 
-  Result<LayeredImage> draw_light(const Renderer& renderer, const View& view, const Progress& progress,
+  Result<LayeredImage> draw_light(Renderer& renderer, const View& view, const Progress& progress,
                                   RenderStatistics& statistics) const {
     Result<void> written;
     Preview preview;
@@ -517,7 +541,10 @@ class RenderCommand {
         return written.has_value();
       };
     }
-    Result<LayeredImage> image = renderer.render(view, settings_, progress, &statistics, preview);
+    const Shutter shutter = {shutter_, [&](const Renderer& posed) { return view_now(posed); }};
+    Result<LayeredImage> image =
+        shutter_ > 0 ? renderer.render_exposed(view, settings_, shutter, progress, &statistics, preview)
+                     : renderer.render(view, settings_, progress, &statistics, preview);
     if (!written) return tl::unexpected(written.error());
     if (!image || !is_first_) return image;
     if (settings_.accumulate == 1) {
@@ -568,7 +595,9 @@ class RenderCommand {
   int threads_ = 0;
   double load_ms_ = 0;
   glm::dvec3 turntable_centre_ws_{0};  // of the scene as it is in the first picture
-  bool is_first_ = true;               // picture of a series: what there is to remark is remarked once
+  double shutter_ = 0;                 // seconds
+  Course course_;
+  bool is_first_ = true;  // picture of a series: what there is to remark is remarked once
 };
 
 constexpr const char* kFooter =

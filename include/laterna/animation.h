@@ -113,6 +113,10 @@ double duration(const Clip& clip);
 /// Numbers of one key of this property; 0: as many as there are morph targets.
 int component_count(AnimatedProperty property);
 
+/// Puts everything that clips move where it is at a time in seconds, once: the clips stay. The scene must have passed validate(),
+/// and be at rest. Vertices that skins and morph targets move are left to what draws them.
+void pose_scene(Scene& scene, double seconds);
+
 /// Lets clips of this name play and no others, "all": all, "none": none; paths go on. Error: no clip has that name; lists those there are.
 Result<void> choose_clip(Scene& scene, const std::string& name);
 

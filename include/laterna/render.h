@@ -166,6 +166,16 @@ struct ShadowMapView {
   glm::dmat4 image_from_world{1.0};
 };
 
+class Renderer;
+/// How long the pictures of a mean (RenderSettings::accumulate) are exposed: each is of an instant of its own, and what moves
+/// meanwhile is blurred (Haeberli and Akeley 1990, section 4.1).
+struct Shutter {
+  /// Of scene time, half before the renderer's time and half after it; 0 … kMaxSceneTime. The first picture is of the middle.
+  double seconds = 0;
+  std::function<Result<View>(const Renderer&)> view_now =
+      {};  ///< at the renderer's time; unset: the view does not move
+};
+
 struct Probe;
 struct ProbeSettings;
 struct ProbeReport;
@@ -214,6 +224,12 @@ class Renderer {
   /// Draws all channels, with metadata. R, G, B are linear and unclamped; A is coverage, colour premultiplied by it.
   Result<LayeredImage> render(const View& view, const RenderSettings& settings, const Progress& progress = {},
                               RenderStatistics* statistics = nullptr, const Preview& preview = {}) const;
+
+  /// The same of what moves while a shutter is open. Afterwards the renderer is at the time at which it was.
+  /// Error: as of set_time(), `view_now` or render(); a shutter that is open for less than no time, or beyond ±kMaxSceneTime.
+  Result<LayeredImage> render_exposed(const View& view, const RenderSettings& settings,
+                                      const Shutter& shutter, const Progress& progress = {},
+                                      RenderStatistics* statistics = nullptr, const Preview& preview = {});
 
   /// Illuminance at points, light by light (laterna/probes.h). What shadows each light has is found by rays, whatever its
   /// technique; lights without shadows pass through everything here too. Error: a faulty probe or setting.

@@ -18,6 +18,9 @@ struct VideoRate {
   int numerator = 24, denominator = 1;  ///< at least 1 each; together at most kMaxFramesPerSecond
 };
 
+/// Of one film: over a year at 60 a second.
+inline constexpr std::int64_t kMaxVideoFrames = std::int64_t{1} << 31;
+
 struct VideoOptions {
   /// A name of list_video_codecs(); empty: the first that the file's ending may hold.
   std::string codec = {};

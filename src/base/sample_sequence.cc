@@ -16,12 +16,17 @@ constexpr double kPlasticStep = 0.75487766624669276, kPlasticStepSquared = 0.569
 // is from whole numbers for small h), the one that fills squares most evenly at 4 to 1000 points.
 constexpr double kPixelStepX = 0.39121144301416644, kPixelStepY = 0.31662479035539981;
 
+// Fractions of √7: of roots, one that fills squares evenly with each of the above.
+constexpr double kInstantStep = 0.64575131106459072;
+
 double step_of(SampleDimension dimension) {
   switch (dimension) {
     case SampleDimension::pixel_x:
       return kPixelStepX;
     case SampleDimension::pixel_y:
       return kPixelStepY;
+    case SampleDimension::instant:
+      return kInstantStep;
     case SampleDimension::source:
       break;
   }

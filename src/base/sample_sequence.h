@@ -9,9 +9,8 @@ struct SampleIndex {
 };
 
 /// What pictures differ in. Each has numbers of its own, so that every two of them fill their square evenly; lights may
-/// share theirs with each other and with lenses, because what they give is added. Motion blur will need one more, for
-/// the instant of a picture within the shutter's time.
-enum class SampleDimension { pixel_x, pixel_y, source };
+/// share theirs with each other and with lenses, because what they give is added. `instant`: within the shutter's time.
+enum class SampleDimension { pixel_x, pixel_y, source, instant };
 
 /// A number in (0, 1) for each picture, ½ for the first. The first few are spread over the whole too, so that one may stop
 /// early: fractions of multiples of an irrational number (Kronecker's sequence).

@@ -74,7 +74,10 @@ Result<Plan> plan(const std::string& name, int width, int height, const VideoOpt
     return fault(name, std::move(text));
   if (std::string text = find_size_fault(**codec, width, height); !text.empty())
     return fault(name, std::move(text));
-  if (options.most_frames < 0) return fault(name, "the number of frames must be 0 or more");
+  if (options.most_frames < 0 || options.most_frames > kMaxVideoFrames) {
+    return fault(name, fmt::format("the number of frames must be from 0 to {}, not {}", kMaxVideoFrames,
+                                   options.most_frames));
+  }
   if (!(options.quality >= 0 && options.quality <= 100))
     return fault(name, fmt::format("expected a quality from 0 to 100, got {:g}", options.quality));
   if (is_gif) return Plan{*codec, nullptr};

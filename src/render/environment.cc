@@ -15,7 +15,7 @@ tl::unexpected<Error> fault_of(const Picture& picture, std::string message) {
   return tl::unexpected(Error(Failure::bad_input, Diagnostic{name, {}, std::move(message)}));
 }
 
-// Linear light. `is_divided`: by alpha, where there is one (RGBD).
+// Linear light, 0 … kMaxRadiance. `is_divided`: by alpha, where there is one (RGBD).
 std::vector<glm::vec3> linear_texels(const Image& pixels, bool is_divided) {
   // 1/255 is what RGBD's smallest alpha is: a packed 0 is as bright as that.
   constexpr float kLeastAlpha = 1.0F / 255;
@@ -35,7 +35,8 @@ std::vector<glm::vec3> linear_texels(const Image& pixels, bool is_divided) {
     for (int x = 0; x < pixels.width(); ++x) {
       glm::vec3 texel(linear(x, y, 0), linear(x, y, green), linear(x, y, blue));
       if (is_divided && pixels.has_alpha()) texel /= std::max(pixels.value(x, y, alpha), kLeastAlpha);
-      texels.push_back(texel);
+      // Sharpened pictures hold some negative light; sums of more than this would not be numbers.
+      texels.push_back(glm::clamp(texel, 0.0F, static_cast<float>(kMaxRadiance)));
     }
   }
   return texels;

@@ -310,17 +310,21 @@ struct Renderer::Implementation {
   }
 
   // Where a picture goes. `image`: what holds the target, where the caller has no memory of its own.
+  // Before a picture of a mean is drawn: brings the scene to the instant of that picture, and gives the view of it. Without,
+  // all pictures are of one instant.
+  using Expose = std::function<Result<View>(SampleIndex)>;
   struct Destination {
     const RenderTarget& target;
     const Preview& preview;
     const LayeredImage* image = nullptr;
+    const Expose* expose = nullptr;
   };
   Result<RenderStatistics> draw(const View& from, const RenderSettings& settings,
                                 const Destination& destination, const Progress& progress) const;
   RenderStatistics draw_picture(const View& from, const RenderSettings& settings, SampleIndex sample,
                                 const render::PictureWriter& writer, ProgressReport& progress) const;
-  RenderStatistics draw_mean(const View& from, const RenderSettings& settings, const Destination& destination,
-                             ProgressReport& progress) const;
+  Result<RenderStatistics> draw_mean(const View& from, const RenderSettings& settings,
+                                     const Destination& destination, ProgressReport& progress) const;
   void draw_bands(const raster::RasterView& view, const RenderSettings& settings, shade::ShaderJob& job,
                   const render::PictureWriter& writer, RenderStatistics& statistics,
                   ProgressReport& progress) const;
@@ -333,7 +337,8 @@ struct Renderer::Implementation {
   [[nodiscard]] Result<light::PlannedLight> planned_face(const std::string& name, int face) const;
   [[nodiscard]] Result<LayeredImage> draw_channels(const View& view, const RenderSettings& settings,
                                                    const Progress& progress, RenderStatistics* statistics,
-                                                   const Preview& preview) const;
+                                                   const Preview& preview,
+                                                   const Expose* expose = nullptr) const;
 
   // While a picture is drawn. The last one out lets the shadow maps rest.
   class Drawing {
@@ -487,19 +492,21 @@ RenderStatistics Renderer::Implementation::draw_picture(const View& from, const 
 }
 
 // The mean of pictures at different samples. The target has been checked.
-RenderStatistics Renderer::Implementation::draw_mean(const View& from, const RenderSettings& settings,
-                                                     const Destination& destination,
-                                                     ProgressReport& progress) const {
+Result<RenderStatistics> Renderer::Implementation::draw_mean(const View& from, const RenderSettings& settings,
+                                                             const Destination& destination,
+                                                             ProgressReport& progress) const {
   Stopwatch watch;
   watch.start();
   RenderStatistics statistics;
   render::PictureAccumulation pictures(settings, frame, pool);
   const auto write = [&] { pictures.write(settings, destination.target, set, frame); };
   for (int i = 0; i < settings.accumulate && !progress.is_cancelled(); ++i) {
+    const SampleIndex sample = {i, settings.accumulate};
+    const Result<View> view = destination.expose != nullptr ? (*destination.expose)(sample) : from;
+    if (!view) return tl::unexpected(view.error());
     const Result<render::PictureWriter> writer =
         render::PictureWriter::create(pictures.picture_settings(), pictures.picture_target(), frame, set);
-    const RenderStatistics one =
-        draw_picture(from, pictures.picture_settings(), {i, settings.accumulate}, *writer, progress);
+    const RenderStatistics one = draw_picture(*view, pictures.picture_settings(), sample, *writer, progress);
     if (progress.is_cancelled()) break;
     pictures.add();
     render::add_costs(statistics, one);
@@ -531,9 +538,9 @@ Result<RenderStatistics> Renderer::Implementation::draw(const View& from, const 
   ProgressReport report(progress, static_cast<std::size_t>(raster::tiles_across(settings.width)) *
                                       static_cast<std::size_t>(raster::tiles_across(settings.height)) *
                                       static_cast<std::size_t>(settings.accumulate));
-  const RenderStatistics statistics = settings.accumulate == 1
-                                          ? draw_picture(from, settings, {}, *writer, report)
-                                          : draw_mean(from, settings, destination, report);
+  Result<RenderStatistics> statistics = settings.accumulate == 1
+                                            ? draw_picture(from, settings, {}, *writer, report)
+                                            : draw_mean(from, settings, destination, report);
   if (report.is_cancelled())
     return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
   return statistics;
@@ -556,7 +563,8 @@ std::vector<std::string> Renderer::channel_names(const RenderSettings& settings)
 Result<LayeredImage> Renderer::Implementation::draw_channels(const View& view, const RenderSettings& settings,
                                                              const Progress& progress,
                                                              RenderStatistics* statistics,
-                                                             const Preview& preview) const {
+                                                             const Preview& preview,
+                                                             const Expose* expose) const {
   if (Result<void> checked = render::check_settings(settings, view); !checked)
     return tl::unexpected(checked.error());
   LayeredImage image;
@@ -571,7 +579,7 @@ Result<LayeredImage> Renderer::Implementation::draw_channels(const View& view, c
   for (Channel& channel : image.channels)
     target.channels.push_back({channel.name, channel.values.data(), stride});
   image.metadata = render::describe(settings, view, frame);
-  Result<RenderStatistics> done = draw(view, settings, {target, preview, &image}, progress);
+  Result<RenderStatistics> done = draw(view, settings, {target, preview, &image, expose}, progress);
   if (!done) return tl::unexpected(std::move(done.error()));
   if (statistics != nullptr) *statistics = *done;
   return image;
@@ -582,6 +590,24 @@ Result<LayeredImage> Renderer::render(const View& view, const RenderSettings& se
                                       const Preview& preview) const {
   return guarded(
       [&] { return implementation_->draw_channels(view, settings, progress, statistics, preview); });
+}
+
+Result<LayeredImage> Renderer::render_exposed(const View& view, const RenderSettings& settings,
+                                              const Shutter& shutter, const Progress& progress,
+                                              RenderStatistics* statistics, const Preview& preview) {
+  const double middle = time();
+  if (Result<void> checked = render::check_shutter(shutter.seconds, middle); !checked)
+    return tl::unexpected(checked.error());
+  const Implementation::Expose expose = [&](SampleIndex sample) -> Result<View> {
+    const double instant = middle + shutter.seconds * (sample_number(sample, SampleDimension::instant) - 0.5);
+    if (const Result<int> posed = set_time(instant); !posed) return tl::unexpected(posed.error());
+    return shutter.view_now ? shutter.view_now(*this) : view;
+  };
+  Result<LayeredImage> image = guarded(
+      [&] { return implementation_->draw_channels(view, settings, progress, statistics, preview, &expose); });
+  const Result<int> restored = set_time(middle);
+  if (image && !restored) return tl::unexpected(restored.error());
+  return image;
 }
 
 Result<ProbeReport> Renderer::measure_probes(std::span<const Probe> probes, const ProbeSettings& settings,

@@ -26,6 +26,13 @@ Result<void> check_time(double seconds) {
                             kMaxSceneTime, seconds));
 }
 
+Result<void> check_shutter(double seconds, double middle) {
+  if (!(seconds >= 0))
+    return refuse(fmt::format("a shutter is open for 0 seconds or longer, not {}", seconds));
+  if (Result<void> checked = check_time(middle - seconds / 2); !checked) return checked;
+  return check_time(middle + seconds / 2);
+}
+
 Result<void> check_options(const RendererOptions& options) {
   if (Result<void> checked = check_time(options.time); !checked) return checked;
   if (options.threads < 0 || options.threads > kMaxThreads) {

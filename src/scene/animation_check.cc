@@ -178,6 +178,7 @@ class AnimationCheck {
     if (channel.texture < 0 || channel.texture > 4)
       faults_.error(place + ".texture", fmt::format("expected 0 to 4, got {}", channel.texture));
     const KeyFrames& keys = clip.keys[static_cast<std::size_t>(channel.keys)];
+    if (changes_light(channel)) check_light(channel, keys, place);
     auto components = static_cast<std::size_t>(component_count(channel.property));
     const Node* node = channel.property <= AnimatedProperty::look_at
                            ? &scene_.nodes[static_cast<std::size_t>(channel.target)]
@@ -199,6 +200,28 @@ class AnimationCheck {
                                 per_key * keys.times.size(), per_key, keys.times.size(), keys.values.size()));
     } else if (channel.property == AnimatedProperty::rotation) {
       check_rotations(keys, place);
+    }
+  }
+
+  static bool changes_light(const ClipChannel& channel) {
+    using P = AnimatedProperty;
+    return channel.property > P::look_at && channel.property <= P::outer_cone &&
+           (channel.property > P::far || channel.of_light);
+  }
+
+  // Lights must stay of a kind that can be drawn while they change.
+  void check_light(const ClipChannel& channel, const KeyFrames& keys, const std::string& place) {
+    using P = AnimatedProperty;
+    const Light& light = scene_.lights[static_cast<std::size_t>(channel.target)];
+    if (channel.property <= P::y_extent && !light.distortion.is_none())
+      faults_.error(place + ".property", "the lens distorts its frame as it is: that cannot change");
+    if (channel.property != P::outer_cone) return;
+    const std::size_t step = keys.interpolation == KeyInterpolation::cubic_spline ? 3 : 1;
+    for (std::size_t i = step / 2; i < keys.values.size(); i += step) {
+      Light changed = light;
+      changed.outer_cone = Angle::radians(keys.values[i]);
+      const std::string message = find_fault(changed.shadow.layout, changed);
+      if (!message.empty()) return faults_.error(place + ".keys", message);
     }
   }
 

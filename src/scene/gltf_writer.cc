@@ -73,9 +73,15 @@ void warn_of_rest(const Scene& scene, Document& document) {
     document.warn("surfaces", "layers on surfaces are not carried: keep the rig that has them");
   if (scene.environment) document.warn("environment", "is not carried: keep the rig that has it");
   if (!scene.clips.empty())
-    document.warn("clips", "animation is not carried: the file shows the scene as it stands");
+    document.warn("clips", "animation is not carried: the file shows one instant of it");
   if (!scene.skins.empty())
     document.warn("skins", "are not carried: meshes that wear them are written as they were modelled");
+  const auto has_targets = [](const Mesh& mesh) {
+    return std::ranges::any_of(mesh.primitives, [](const Primitive& p) { return !p.targets.empty(); });
+  };
+  if (std::ranges::any_of(scene.meshes, has_targets))
+    document.warn("meshes",
+                  "morph targets that move are not carried: such meshes are written as they were modelled");
 }
 
 Result<GltfFiles> make(const Scene& scene, const std::filesystem::path& file,

@@ -311,4 +311,6 @@ void ScenePose::set_node(int node, const glm::dmat4& parent_from_node) {
     rest->second.parent_from_node = parent_from_node;
 }
 
+void pose_scene(Scene& scene, double seconds) { ScenePose(scene).apply(scene, seconds); }
+
 }  // namespace laterna

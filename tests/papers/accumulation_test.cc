@@ -41,12 +41,13 @@ TEST(Accumulation, EveryTwoDimensionsFillTheirSquare) {
         all.push_back(which == 0   ? sample_number(sample, SampleDimension::pixel_x)
                       : which == 1 ? sample_number(sample, SampleDimension::pixel_y)
                       : which == 2 ? sample_number(sample, SampleDimension::source)
+                      : which == 3 ? sample_number(sample, SampleDimension::instant)
                                    : field_centre(sample));
       }
       return all;
     };
-    for (int a = 0; a < 4; ++a) {
-      for (int b = a + 1; b < 4; ++b) {
+    for (int a = 0; a < 5; ++a) {
+      for (int b = a + 1; b < 5; ++b) {
         std::vector<glm::dvec2> points;
         for (int i = 0; i < count; ++i)
           points.emplace_back(numbers(a)[static_cast<std::size_t>(i)],
@@ -88,6 +89,77 @@ TEST(Accumulation, PicturesSamplePixelsAtOtherPlaces) {
       EXPECT_EQ(at(image, "Z", 4, 4), at(one, "Z", 4, 4)) << "data is the first picture's";
     }
   }
+}
+
+// Its edge stands at 2 t metres at t seconds.
+Scene moving_card() {
+  Scene scene = card(0);
+  scene.nodes[0].transform = Transform();
+  Clip clip;
+  clip.name = "go";
+  clip.at_end = AtEnd::hold;
+  clip.keys = {{KeyInterpolation::linear, {0, 2}, {0, 0, 0, 4, 0, 0}}};
+  clip.channels = {{AnimatedProperty::translation, 0, false, 0, 0}};
+  scene.clips.push_back(clip);
+  return scene;
+}
+
+Renderer at_one_second(Scene scene) {
+  RendererOptions options;
+  options.time = 1;
+  return *Renderer::create(std::move(scene), options);
+}
+
+// While the shutter is open the edge goes from 1 to 3 metres: of a pixel's metre it covers the mean share of that time.
+TEST(Accumulation, AShutterBlursWhatMoves) {
+  Renderer renderer = at_one_second(moving_card());
+  RenderSettings settings = papers_settings(8, 8);
+  const LayeredImage still = render(renderer, square_on(4, 1), settings);
+  EXPECT_EQ(at(still, "G", 5, 4), 1);
+  EXPECT_EQ(at(still, "G", 6, 4), 0);
+  settings.accumulate = 256;
+  const Result<LayeredImage> blurred = renderer.render_exposed(square_on(4, 1), settings, {1});
+  ASSERT_TRUE(blurred) << to_string(blurred.error());
+  const double expected[] = {1, 0.75, 0.25, 0};
+  for (int x = 4; x < 8; ++x) EXPECT_NEAR(at(*blurred, "G", x, 4), expected[x - 4], 0.01) << x;
+  EXPECT_EQ(renderer.time(), 1);
+  settings.accumulate = 1;
+  EXPECT_EQ(count_different_pixels(render(renderer, square_on(4, 1), settings), still), 0U);
+}
+
+// What moves with the camera stays sharp, and so does what is still.
+TEST(Accumulation, AShutterLeavesSharpWhatStandsStillInThePicture) {
+  Renderer renderer = at_one_second(moving_card());
+  RenderSettings settings = papers_settings(8, 8);
+  settings.accumulate = 64;
+  Shutter shutter{1};
+  shutter.view_now = [](const Renderer& posed) -> Result<View> {
+    View view = square_on(4, 1);
+    view.pose.position_ws.x += 2 * posed.time() - 2;
+    return view;
+  };
+  const LayeredImage followed = *renderer.render_exposed(square_on(4, 1), settings, shutter);
+  for (int x = 4; x < 8; ++x) EXPECT_EQ(at(followed, "G", x, 4), x < 6 ? 1 : 0) << x;
+  Renderer unmoved = make_renderer(card(0.3));
+  EXPECT_EQ(count_different_pixels(*unmoved.render_exposed(square_on(4, 1), settings, {1}),
+                                   render(unmoved, square_on(4, 1), settings)),
+            0U);
+}
+
+TEST(Accumulation, AShutterIsOpenForSomeTimeWithinTheScenes) {
+  Renderer renderer = make_renderer(card(0.3));
+  const RenderSettings settings = papers_settings(8, 8);
+  for (const double seconds : {-1.0, std::nan(""), 3e6}) {
+    const auto refused = renderer.render_exposed(square_on(4, 1), settings, {seconds});
+    EXPECT_FALSE(refused) << seconds;
+    EXPECT_EQ(renderer.time(), 0);
+  }
+  Shutter lost{0.5};
+  lost.view_now = [](const Renderer& posed) { return posed.camera_view("none", 8, 8); };
+  RenderSettings many = settings;
+  many.accumulate = 4;
+  EXPECT_FALSE(renderer.render_exposed(square_on(4, 1), many, lost));
+  EXPECT_EQ(renderer.time(), 0);
 }
 
 // Called after each picture but the last; what it is shown is the mean of so many pictures; it may end the work.
