@@ -70,6 +70,23 @@ class Convert(unittest.TestCase):
                     pictures.append(picture.read_bytes())
                 self.assertEqual(pictures[0], pictures[1])
 
+    def test_a_path_is_written_as_it_is_at_a_time(self):
+        rig = self.folder / "rig.json"
+        rig.write_text(json.dumps({"cameras": [{"name": "main", "position": [0, 2, 6], "target": [0, 1, 0], "yfov_deg": 40,
+            "path": {"keys": [{"time": 0, "position": [0, 2, 6]}, {"time": 2, "position": [4, 2, 5]}]}}],
+            "lights": [{"name": "lamp", "type": "point", "position": [0, 2, 2], "candela": 50}]}))
+        written = self.folder / "a.glb"
+        done = run("convert", SCENES / "stage.glb", "--rig", rig, "--time", "1", "-o", written)
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertIn("animation is not carried", done.stderr)
+        pictures = []
+        for i, source in enumerate([[SCENES / "stage.glb", "--rig", rig, "--time", "1"], [written]]):
+            picture = self.folder / f"{i}.pfm"
+            done = run("render", *source, "-o", picture, "--size", "48x32")
+            self.assertEqual(done.returncode, OK, done.stderr)
+            pictures.append(picture.read_bytes())
+        self.assertEqual(pictures[0], pictures[1])
+
     def test_the_schemas_accept_what_is_written(self):
         for scene, rig in [("stage.glb", "stage.json"), ("table.glb", "table.json"), ("room.glb", "lamp.json"),
                            ("room.glb", "lamps.json"), ("room.glb", "focus.json"), ("stage.glb", "ground.json")]:

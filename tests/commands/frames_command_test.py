@@ -134,6 +134,7 @@ class Frames(unittest.TestCase):
     def test_what_makes_no_sense_is_refused(self):
         out = str(self.at / "out.##.png")
         for arguments, message in [
+            (["--frames", "0:3", "--accumulate", "4", "--progressive", "-o", str(self.at / "out.##.png")], "--progressive is for one picture"),
             (["--shutter", "1/48", "-o", str(self.at / "out.png")], "--shutter needs --accumulate"),
             (["--shutter", "1/0", "--accumulate", "4", "-o", str(self.at / "out.png")], "--shutter: expected seconds greater than 0"),
             (["--frames", "0:3", "-o", str(self.at / "out.png")], "the output needs # where the frame's number goes"),

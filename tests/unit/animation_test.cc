@@ -154,6 +154,37 @@ TEST(GltfAnimation, PointersMoveCamerasLightsAndMaterials) {
   EXPECT_DOUBLE_EQ(scene.nodes[0].parent_from_node[3].x, 0.5);
 }
 
+std::string faults_of(const Scene& scene) {
+  std::string all;
+  for (const Diagnostic& fault : validate(scene)) all += to_string(fault) + "\n";
+  return all;
+}
+
+// What a still light is refused for, no clip may make of it.
+TEST(GltfAnimation, LightsStayOfAKindThatCanBeDrawn) {
+  Scene scene;
+  Light light;
+  light.type = LightType::projector;
+  light.distortion.k1 = -0.1;
+  scene.lights.push_back(light);
+  Clip clip;
+  clip.keys = {{KeyInterpolation::linear, {0, 1}, {0.4, 2.9}}};
+  clip.channels = {{AnimatedProperty::yfov, 0, true, 0, 0}};
+  scene.clips = {clip};
+  Node node;
+  node.light = 0;
+  scene.nodes.push_back(node);
+  EXPECT_NE(faults_of(scene).find("the lens distorts its frame as it is"), std::string::npos);
+  scene.lights[0] = Light();
+  scene.lights[0].type = LightType::spot;
+  scene.lights[0].outer_cone = Angle::degrees(85);
+  scene.lights[0].shadow.layout = ShadowLayout::dual_paraboloid;
+  scene.clips[0].channels[0] = {AnimatedProperty::outer_cone, 0, true, 0, 0};
+  EXPECT_NE(faults_of(scene), "");
+  scene.clips[0].keys[0].values = {1.45, 1.5};
+  EXPECT_EQ(faults_of(scene), "");
+}
+
 TEST(GltfAnimation, TextureTransformsMoveByTheirParts) {
   AnimatedGltf file;
   const TemporaryFolder folder;

@@ -86,6 +86,20 @@ TEST(EnvironmentLayers, StandBehindTheScene) {
   EXPECT_EQ(at(image, "A", 3, 3), 0);
 }
 
+// A picture may hold any finite number; what is too bright or less than dark is held to what sums can bear.
+TEST(EnvironmentLayers, AreNumbersWhateverTheirPictureHolds) {
+  for (const float extreme : {3e38F, -5.0F}) {
+    const LayeredImage image =
+        render(make_renderer(room_under(plain_sky(glm::vec3(extreme)))), kView, test_settings(16, 16));
+    for (const char* channel : {"R", "G", "B"}) {
+      for (const float value : image.find(channel)->values) {
+        ASSERT_TRUE(std::isfinite(value)) << extreme;
+        ASSERT_GE(value, 0) << extreme;
+      }
+    }
+  }
+}
+
 // Lux is of direct lights alone; without an environment nothing else changes.
 TEST(EnvironmentLayers, LightMetersLeaveItOut) {
   Scene scene = room_under(plain_sky(glm::vec3(3)));

@@ -364,7 +364,12 @@ TEST(VideoWriter, SaysWhatIsWrong) {
        2,
        {.rate = {2000001, 2}},
        "expected frames per second greater than 0, at most 1e+06, got 2000001/2"},
-      {"a.gif", 2, 2, {.most_frames = -1}, "the number of frames must be 0 or more"},
+      {"a.gif", 2, 2, {.most_frames = -1}, "the number of frames must be from 0 to 2147483648, not -1"},
+      {"a.mp4",
+       2,
+       2,
+       {.most_frames = kMaxVideoFrames + 1},
+       "the number of frames must be from 0 to 2147483648, not 2147483649"},
   };
   for (const Case& test : cases) {
     const Result<void> checked =
