@@ -24,6 +24,7 @@ ROOMS = {
     "shade": ["base", "image", "scene", "frame", "light", "raster", "trace", "shadow"],
     "render": ["base", "image", "scene", "frame", "light", "raster", "trace", "shadow", "shade"],
     "measure": ["base", "image", "scene", "frame", "light", "raster", "trace", "shadow", "shade", "render"],
+    "bake": ["base", "image", "scene", "frame", "light", "raster", "trace", "shadow", "shade", "render"],
 }
 
 # The room that implements each header of include/laterna: who may include the room may include the header.
