@@ -27,11 +27,11 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make(const light::Planne
 
 std::unique_ptr<shadow::PaneFinder> ShadowCasting::make_panes(const light::PlannedLight& planned) {
   if (planned.technique == ShadowTechnique::raytraced) {
-    return std::make_unique<shadow::RayTracedPanes>(planned, context_.frame, context_.ray_scene());
+    return std::make_unique<shadow::RayTracedPanes>(planned, context_.frame, context_.casters.ray_scene());
   }
-  return std::make_unique<shadow::ExactPanes>(planned, context_.frame,
-                                              context_.caster_tree(shadow::CasterTree::Casters::blended),
-                                              context_.instruction_set);
+  return std::make_unique<shadow::ExactPanes>(
+      planned, context_.frame, context_.casters.caster_tree(shadow::CasterTree::Casters::blended),
+      context_.instruction_set);
 }
 
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light::PlannedLight& planned,
@@ -53,7 +53,7 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light:
     case ShadowTechnique::exact:
       return make_exact(planned);
     case ShadowTechnique::raytraced:
-      return std::make_unique<shadow::RayTracedShadow>(planned, context_.ray_scene());
+      return std::make_unique<shadow::RayTracedShadow>(planned, context_.casters.ray_scene());
     default:
       return nullptr;
   }
@@ -63,7 +63,7 @@ DepthMaps ShadowCasting::find_maps(const light::PlannedLight& planned, std::size
                                    bool keeps_triangles) {
   ProgressReport& progress = context_.progress;
   const DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces, keeps_triangles,
-                           context_.casters_revision};
+                           context_.casters.revision()};
   const DepthMapCache::Found found = context_.maps.find(
       index, key,
       {context_.frame, context_.pool, context_.bins, context_.instruction_set,
@@ -75,7 +75,8 @@ DepthMaps ShadowCasting::find_maps(const light::PlannedLight& planned, std::size
 }
 
 const frame::TriangleNeighbours* ShadowCasting::find_neighbours(const light::PlannedLight& planned) const {
-  return shadow::filter_of(planned.settings) == ShadowFilter::refined ? context_.neighbours() : nullptr;
+  return shadow::filter_of(planned.settings) == ShadowFilter::refined ? context_.casters.triangle_neighbours()
+                                                                      : nullptr;
 }
 
 bool ShadowCasting::complete(const DepthMaps& maps) {
@@ -113,7 +114,8 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_paraboloids(const l
 
 // The tree is all lights': the first is said to hold it.
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_exact(const light::PlannedLight& planned) {
-  std::shared_ptr<const shadow::CasterTree> tree = context_.caster_tree(shadow::CasterTree::Casters::opaque);
+  std::shared_ptr<const shadow::CasterTree> tree =
+      context_.casters.caster_tree(shadow::CasterTree::Casters::opaque);
   report_memory(planned, 0, has_reported_tree_ ? 0 : tree->memory_bytes());
   has_reported_tree_ = true;
   return std::make_unique<shadow::ExactShadow>(planned, context_.frame, std::move(tree),

@@ -1,12 +1,12 @@
 // From a planned light to what answers for its shadows.
 #pragma once
 
-#include <functional>
 #include <memory>
 
 #include "frame/triangle_neighbours.h"
 #include "laterna/render.h"
 #include "light/light_plan.h"
+#include "render/caster_structures.h"
 #include "render/depth_map_cache.h"
 #include "render/progress_report.h"
 #include "shadow/caster_tree.h"
@@ -16,18 +16,14 @@
 
 namespace laterna::render {
 
-/// What shadow techniques of one picture are made of. `ray_scene`, `caster_tree` and `neighbours` are asked for where a
-/// technique needs them.
+/// What shadow techniques of one picture are made of.
 struct CastingContext {
   const frame::Frame& frame;
   const TaskPool& pool;
   InstructionSet instruction_set;
-  std::uint64_t casters_revision;
   BinsPool& bins;
   DepthMapCache& maps;
-  std::function<std::shared_ptr<const trace::RayScene>()> ray_scene;
-  std::function<std::shared_ptr<const shadow::CasterTree>(shadow::CasterTree::Casters)> caster_tree;
-  std::function<const frame::TriangleNeighbours*()> neighbours;
+  const CasterStructures& casters;
   const raster::RasterView& camera;
   const RenderSettings& settings;
   RenderStatistics& statistics;

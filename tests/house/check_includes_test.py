@@ -51,12 +51,12 @@ class CheckIncludes(unittest.TestCase):
     def test_a_path_that_is_no_room(self):
         self.plant("src/image/bad.h", '#include "mip_chain.h"')
         self.expect('src/image/bad.h:1: includes "mip_chain.h"; expected a path from src/: one of the rooms base, image, '
-                    "scene, frame, light, raster, trace, shadow, shade, render, measure")
+                    "scene, frame, light, raster, trace, shadow, shade, render, measure, bake")
 
     def test_a_folder_that_is_no_room(self):
         self.plant("src/utils/bad.h", "")
         self.expect("src/utils/bad.h: lies in no room of the table; expected one of base, image, scene, frame, light, "
-                    "raster, trace, shadow, shade, render, measure")
+                    "raster, trace, shadow, shade, render, measure, bake")
 
     def test_a_library_of_another_room(self):
         self.plant("src/shade/bad.cc", "#include <embree3/rtcore.h>")

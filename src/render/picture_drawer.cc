@@ -1,0 +1,344 @@
+#include "render/picture_drawer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/refuse.h"
+#include "base/stopwatch.h"
+#include "light/decal_plan.h"
+#include "render/channels.h"
+#include "render/cost_sum.h"
+#include "render/depth_map_painter.h"
+#include "render/environment.h"
+#include "render/metadata.h"
+#include "render/photograph_feathers.h"
+#include "render/picture_accumulation.h"
+#include "render/settings_check.h"
+
+namespace laterna::render {
+namespace {
+
+// Set-up triangles of the camera's view are held to about this much memory: larger scenes are drawn in bands.
+constexpr std::size_t kBinMemory = std::size_t{512} << 20U;
+
+int band_count(const frame::Frame& frame, int tile_rows) {
+  const std::size_t bytes = frame.triangle_count() * sizeof(raster::SmallTriangle);
+  return static_cast<int>(
+      std::clamp<std::size_t>((bytes + kBinMemory - 1) / kBinMemory, 1, static_cast<std::size_t>(tile_rows)));
+}
+
+// Where samples of a picture of a mean lie in their pixels; those of the first stay where they are.
+shade::SampleOffset jitter_of(SampleIndex sample) {
+  const auto offset = [&](SampleDimension dimension) {
+    return static_cast<int>(std::floor(256 * sample_number(sample, dimension))) - 128;
+  };
+  return {offset(SampleDimension::pixel_x), offset(SampleDimension::pixel_y)};
+}
+
+// Before so many pictures have been averaged, how they differ says little.
+constexpr int kFewestPictures = 8;
+
+// Sorted triangles kept from picture to picture, so that their memory is touched only once.
+constexpr std::size_t kIdleBinMemory = std::size_t{256} << 20U;
+
+// Projectors that paint, with what finds the surfaces that they see.
+std::vector<shade::ShaderDecal> make_decals(const raster::RasterView::Ray& ray,
+                                            const RenderSettings& settings,
+                                            std::span<const light::PlannedLight> plan,
+                                            ShadowCasting& casting) {
+  std::vector<shade::ShaderDecal> decals;
+  for (const light::PlannedLight& planned : plan) {
+    decals.push_back({shade::BoundLight(*planned.placed, ray, ShadingModel::papers, settings.anisotropy),
+                      shade::LightReach(*planned.placed, ShadingModel::papers),
+                      casting.make(planned, planned.number)});
+  }
+  return decals;
+}
+
+// Rows of metres, from the top.
+LayeredImage metres_of(const shadow::DepthMap& map) {
+  LayeredImage image;
+  image.width = map.width();
+  image.height = map.height();
+  image.channels.push_back({"Z", {}});
+  std::vector<float>& values = image.channels[0].values;
+  values.reserve(static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height()));
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) values.push_back(static_cast<float>(map.distance(x, y)));
+  }
+  return image;
+}
+
+}  // namespace
+
+class PictureDrawer::Drawing {
+ public:
+  explicit Drawing(const PictureDrawer& of) : of_(of) { ++of_.pictures_drawn_now_; }
+  ~Drawing() {
+    if (--of_.pictures_drawn_now_ == 0) of_.maps_.rest();
+    of_.bins_.trim(kIdleBinMemory);
+  }
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
+
+ private:
+  const PictureDrawer& of_;
+};
+
+Result<void> PictureDrawer::load_environment(const RendererOptions& options) {
+  if (!posed_.scene().environment) return {};
+  Result<image::EnvironmentMap> map = prepare_environment(
+      posed_.scene(), pool_, instruction_set_, options.environment_cache, options.environment_progress);
+  if (!map) return tl::unexpected(std::move(map.error()));
+  environment_ = std::make_unique<const image::EnvironmentMap>(std::move(*map));
+  split_sum_ = std::make_unique<const shade::SplitSum>(shade::make_split_sum(pool_));
+  return {};
+}
+
+// One for each photograph, drawn when a picture first asks.
+const std::vector<image::MipChain>& PictureDrawer::photograph_feathers() const {
+  const std::lock_guard lock(feathers_mutex_);
+  if (feathers_revision_ != posed_.casters().revision()) feathers_.clear();
+  feathers_revision_ = posed_.casters().revision();
+  StageTimes unused;
+  for (std::size_t i = feathers_.size(); i < frame().photographs.size(); ++i) {
+    const light::ShadowView view = light::photograph_view(frame().photographs[i], kFeatherMapSide);
+    const shadow::DepthMap depth =
+        draw_depth_map({frame(), pool_, bins_, instruction_set_, unused}, view, CasterFaces::both, false);
+    feathers_.push_back(
+        make_feather(depth, *frame().photographs[i].picture, posed_.scene().photograph_settings.feather));
+  }
+  return feathers_;
+}
+
+// Photographs with what finds the surfaces that they see.
+shade::PhotographJob PictureDrawer::make_photograph_job(const raster::RasterView::Ray& ray,
+                                                        const RenderSettings& settings,
+                                                        const light::PhotographPlan& plan,
+                                                        ShadowCasting& casting) const {
+  shade::PhotographJob job;
+  const PhotographSettings& how = posed_.scene().photograph_settings;
+  job.unseen = how.unseen;
+  for (std::size_t i = 0; i < plan.photographs.size(); ++i) {
+    const light::PlannedLight& planned = plan.photographs[i];
+    const image::MipChain* feather = how.feather > 0 ? &photograph_feathers()[i] : nullptr;
+    job.photographs.push_back(
+        {shade::BoundPhotograph(frame().photographs[i], ray, how.blend, feather, settings.anisotropy),
+         shade::LightReach(*planned.placed, ShadingModel::papers), casting.make(planned, planned.number)});
+  }
+  return job;
+}
+
+// Everything the tiles share, with every shadow technique ready to answer.
+shade::ShaderJob PictureDrawer::make_job(const raster::RasterView& view, const RenderSettings& settings,
+                                         const PicturePlan& planned_picture, RenderStatistics& statistics,
+                                         ProgressReport& progress) const {
+  shade::ShaderJob job;
+  job.frame = &frame();
+  job.view = &view;
+  job.reflection.model = settings.shading;
+  job.reflection.phong = posed_.scene().phong;
+  for (int i = 0; i < 3; ++i) job.reflection.ambient[i] = posed_.scene().ambient[i];
+  job.interpolation = settings.interpolation;
+  job.anisotropy = settings.anisotropy;
+  job.samples_per_pixel = settings.samples;
+  job.passes = settings.passes;
+  if (environment_ != nullptr)
+    job.environment.emplace(*posed_.scene().environment, *environment_, *split_sum_, posed_.scene().phong);
+  const bool is_hidden = job.environment && job.environment->is_visible;
+  job.background = posed_.scene().background && !is_hidden ? &*posed_.scene().background : nullptr;
+  job.wanted = wanted_layers(settings);
+  job.instruction_set = instruction_set_;
+  const raster::RasterView::Ray ray = view.homogeneous_ray();
+  ShadowCasting casting({frame(), pool_, instruction_set_, bins_, maps_, posed_.casters(), view, settings,
+                         statistics, progress});
+  job.photographs = make_photograph_job(ray, settings, planned_picture.photographs, casting);
+  job.decals = make_decals(ray, settings, planned_picture.decals, casting);
+  add_lights(ray, settings, planned_picture.lights, casting, progress, job);
+  return job;
+}
+
+// Each light with what answers for its shadows.
+void PictureDrawer::add_lights(const raster::RasterView::Ray& ray, const RenderSettings& settings,
+                               const light::LightPlan& plan, ShadowCasting& casting, ProgressReport& progress,
+                               shade::ShaderJob& job) const {
+  for (std::size_t i = 0; i < plan.lights.size(); ++i) {
+    const light::PlannedLight& planned = plan.lights[i];
+    shade::BoundLight bound(*planned.placed, ray, settings.shading, settings.anisotropy);
+    if (progress.asks_to_stop()) break;
+    job.lights.push_back({bound, shade::LightReach(*planned.placed, settings.shading),
+                          casting.make(planned, i), shade::ShadowTone(planned.settings)});
+    if (planned.placed->light->blend != BlendMode::add)
+      job.lights.back().open = with_open_gate(bound, *planned.placed);
+    if (job.wanted.lux && settings.shading == ShadingModel::papers) {
+      job.physical_lights.emplace_back(*planned.placed, ray, ShadingModel::phong, settings.anisotropy);
+    }
+  }
+}
+
+// Triangles sorted by tile, then tiles shaded, one band of tile rows after the other.
+void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSettings& settings,
+                               shade::ShaderJob& job, const PictureWriter& writer,
+                               RenderStatistics& statistics, ProgressReport& progress) const {
+  const int tiles_x = raster::tiles_across(settings.width);
+  const int tiles_y = raster::tiles_across(settings.height);
+  const int bands = band_count(frame(), tiles_y);
+  std::vector<std::unique_ptr<shade::TileShader>> shaders(static_cast<std::size_t>(pool_.threads()));
+  std::vector<double> encode_ms(shaders.size());
+  const auto binned = bins_.take();
+  raster::BinOptions options;
+  options.cull = raster::CullFaces::single_sided;
+  options.required_flags = kVisible;
+  options.instruction_set = instruction_set_;
+  for (const shade::SampleOffset& offset : shade::sample_offsets(settings.samples, job.jitter)) {
+    options.sample_reach = std::max({options.sample_reach, std::abs(offset.x), std::abs(offset.y)});
+  }
+  for (int band = 0; band < bands && !progress.is_cancelled(); ++band) {
+    const int first_row = tiles_y * band / bands;
+    const int end_row = tiles_y * (band + 1) / bands;
+    Stopwatch watch;
+    watch.start();
+    options.pixels = {0, first_row * raster::kTileSide, settings.width,
+                      std::min(end_row * raster::kTileSide, settings.height)};
+    binned->fill(view, frame().geometry(), options, pool_);
+    job.batches = binned->batches();
+    statistics.triangles += binned->statistics().triangles;
+    statistics.triangles_drawn += binned->statistics().triangles_binned;
+    statistics.picture_stages += binned->statistics().times;
+    statistics.bin_ms += watch.lap_ms();
+
+    pool_.for_each(static_cast<std::size_t>(tiles_x * (end_row - first_row)), [&](std::size_t i, int worker) {
+      if (progress.is_cancelled()) return;
+      auto& shader = shaders[static_cast<std::size_t>(worker)];
+      if (shader == nullptr) shader = std::make_unique<shade::TileShader>(job);
+      const int x = static_cast<int>(i) % tiles_x;
+      const int y = first_row + static_cast<int>(i) / tiles_x;
+      const shade::TileResult& tile = shader->shade(x, y);
+      Stopwatch encode_watch;
+      encode_watch.start();
+      writer.write(x, y, tile);
+      encode_ms[static_cast<std::size_t>(worker)] += encode_watch.lap_ms();
+      progress.advance();
+    });
+    statistics.shade_ms += watch.lap_ms();
+  }
+  for (std::size_t i = 0; i < shaders.size(); ++i) {
+    statistics.picture_stages[Stage::encode] += encode_ms[i];
+    if (shaders[i] == nullptr) continue;
+    statistics.picture_stages += shaders[i]->times();
+    statistics.map_stages[Stage::raster] += shaders[i]->map_ms();
+  }
+}
+
+// One picture: everything as it is at one sample of what is averaged.
+RenderStatistics PictureDrawer::draw_picture(const View& from, const RenderSettings& settings,
+                                             SampleIndex sample, const PictureWriter& writer,
+                                             ProgressReport& progress) const {
+  Stopwatch watch;
+  watch.start();
+  RenderStatistics statistics;
+  const PicturePlan plan = {
+      light::make_light_plan(frame(), {settings.shadows, sample, &from}),
+      light::make_photograph_plan(frame(), posed_.scene().photograph_settings.visibility),
+      light::make_decal_plan(frame(), settings.shadows)};
+  statistics.plan_ms = watch.lap_ms();
+  const raster::RasterView view(from, settings.width, settings.height);
+  shade::ShaderJob job = make_job(view, settings, plan, statistics, progress);
+  job.jitter = jitter_of(sample);
+  statistics.shadow_ms = watch.lap_ms();
+  if (!progress.is_cancelled()) draw_bands(view, settings, job, writer, statistics, progress);
+  for (std::size_t i = 0; i < job.lights.size(); ++i)
+    report_drawn(plan.lights.lights[i], job.lights[i].shadow.get(), statistics);
+  statistics.total_ms = statistics.plan_ms + statistics.shadow_ms + watch.lap_ms();
+  return statistics;
+}
+
+// The mean of pictures at different samples. The target has been checked.
+Result<RenderStatistics> PictureDrawer::draw_mean(const View& from, const RenderSettings& settings,
+                                                  const Destination& destination,
+                                                  ProgressReport& progress) const {
+  Stopwatch watch;
+  watch.start();
+  RenderStatistics statistics;
+  PictureAccumulation pictures(settings, frame(), pool_);
+  const auto write = [&] { pictures.write(settings, destination.target, instruction_set_, frame()); };
+  for (int i = 0; i < settings.accumulate && !progress.is_cancelled(); ++i) {
+    const SampleIndex sample = {i, settings.accumulate};
+    const Result<View> view = destination.expose != nullptr ? (*destination.expose)(sample) : from;
+    if (!view) return tl::unexpected(view.error());
+    const Result<PictureWriter> writer = PictureWriter::create(
+        pictures.picture_settings(), pictures.picture_target(), frame(), instruction_set_);
+    const RenderStatistics one = draw_picture(*view, pictures.picture_settings(), sample, *writer, progress);
+    if (progress.is_cancelled()) break;
+    pictures.add();
+    add_costs(statistics, one);
+    if (settings.noise > 0 && pictures.count() >= kFewestPictures && pictures.noise() <= settings.noise)
+      break;
+    if (destination.preview && i + 1 < settings.accumulate &&
+        !destination.preview({pictures.count(), pictures.noise(), write, destination.image})) {
+      break;
+    }
+  }
+  if (progress.is_cancelled()) return statistics;
+  statistics.pictures = pictures.count();
+  statistics.noise = pictures.noise();
+  write();
+  statistics.total_ms = watch.lap_ms();
+  return statistics;
+}
+
+Result<RenderStatistics> PictureDrawer::draw(const View& from, const RenderSettings& settings,
+                                             const Destination& destination, const Progress& progress) const {
+  if (Result<void> checked = check_settings(settings, from); !checked) return tl::unexpected(checked.error());
+  Result<PictureWriter> writer =
+      PictureWriter::create(settings, destination.target, frame(), instruction_set_);
+  if (!writer) return tl::unexpected(std::move(writer.error()));
+
+  const Drawing drawing(*this);
+  ProgressReport report(progress, static_cast<std::size_t>(raster::tiles_across(settings.width)) *
+                                      static_cast<std::size_t>(raster::tiles_across(settings.height)) *
+                                      static_cast<std::size_t>(settings.accumulate));
+  Result<RenderStatistics> statistics = settings.accumulate == 1
+                                            ? draw_picture(from, settings, {}, *writer, report)
+                                            : draw_mean(from, settings, destination, report);
+  if (report.is_cancelled())
+    return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
+  return statistics;
+}
+
+Result<LayeredImage> PictureDrawer::draw_channels(const View& view, const RenderSettings& settings,
+                                                  const Progress& progress, RenderStatistics* statistics,
+                                                  const Preview& preview, const Expose* expose) const {
+  if (Result<void> checked = check_settings(settings, view); !checked) return tl::unexpected(checked.error());
+  LayeredImage image;
+  image.width = settings.width;
+  image.height = settings.height;
+  RenderTarget target;
+  const auto stride = static_cast<std::size_t>(settings.width);
+  for (const PictureChannel& channel : picture_channels(settings, frame())) {
+    image.channels.push_back(
+        {channel.name, std::vector<float>(stride * static_cast<std::size_t>(settings.height))});
+  }
+  for (Channel& channel : image.channels)
+    target.channels.push_back({channel.name, channel.values.data(), stride});
+  image.metadata = describe(settings, view, frame());
+  Result<RenderStatistics> done = draw(view, settings, {target, preview, &image, expose}, progress);
+  if (!done) return tl::unexpected(std::move(done.error()));
+  if (statistics != nullptr) *statistics = *done;
+  return image;
+}
+
+LayeredImage PictureDrawer::draw_distances(const light::PlannedLight& planned,
+                                           RenderStatistics& statistics) const {
+  Stopwatch watch;
+  watch.start();
+  const auto map = shown_maps_.take();
+  *map = draw_depth_map({frame(), pool_, bins_, instruction_set_, statistics.map_stages},
+                        planned.shadow_views[0], planned.settings.caster_faces, false, std::move(*map));
+  statistics.shadow_ms = statistics.total_ms = watch.lap_ms();
+  statistics.maps_drawn = 1;
+  bins_.trim(kIdleBinMemory);
+  return metres_of(*map);
+}
+
+}  // namespace laterna::render

@@ -1,0 +1,12 @@
+// Pictures and materials.
+#pragma once
+
+#include "laterna/scene.h"
+#include "scene/fault_list.h"
+
+namespace laterna {
+
+/// Reports every fault.
+void check_materials(const Scene& scene, FaultList& faults);
+
+}  // namespace laterna
