@@ -12,14 +12,17 @@
 namespace laterna::bake {
 namespace {
 
-// What shines more than this times the mean is not left to rays.
+// What shines more than this times the mean is bright.
 constexpr double kEven = 2;
 // Luxels nearer than so many of their widths are.
 constexpr float kNear = 3;
 // Luxels are taken as one where they are seen under an angle whose sine is no more, and face nearly the same way: so
 // long is the mean of their normals.
-constexpr float kLargestSine = 0.15F;
+constexpr float kLargestSine = 0.1F;
 constexpr float kLeastAgreement = 0.97F;
+// Whether they are seen is asked by so many rays where they bring as much as a sky of what is hardly not bright would, and by
+// fewer where they bring less: penumbrae of lamps are smooth, and of a thousand faint luxels each needs one.
+constexpr int kRaysForEven = 16;
 
 float strongest(const glm::vec3& light) { return std::max(light.x, std::max(light.y, light.z)); }
 
@@ -60,11 +63,7 @@ BrightLuxels::BrightLuxels(const LuxelTree& tree, std::span<const glm::vec3> exi
   for (auto node = static_cast<std::uint32_t>(shine_.size()); node-- > 0;) shine_[node] = shine_below(node);
 }
 
-// The fraction of what a place gives off that rays leave out.
-float BrightLuxels::rest_of(std::uint32_t place) const {
-  const float all = strongest(exitance_[place]);
-  return all > most_even_ ? 1 - most_even_ / all : 0.0F;
-}
+bool BrightLuxels::is_bright(std::uint32_t place) const { return strongest(exitance_[place]) > most_even_; }
 
 bool BrightLuxels::is_near(std::uint32_t receiver, std::uint32_t place) const {
   const Luxel& luxel = tree_.luxels()[place];
@@ -95,10 +94,9 @@ void BrightLuxels::Shine::find_radius() {
 }
 
 BrightLuxels::Shine BrightLuxels::shine_of(std::uint32_t place) const {
-  const float rest = rest_of(place);
-  if (rest == 0) return {};
+  if (!is_bright(place)) return {};
   const Luxel& luxel = tree_.luxels()[place];
-  const glm::vec3 flux = exitance_[place] * (rest * luxel.area);
+  const glm::vec3 flux = exitance_[place] * luxel.area;
   return {flux,         luxel.position_ws, luxel.normal_ws, luxel.position_ws, luxel.position_ws,
           sum_of(flux), luxel.area,        luxel.area};
 }
@@ -138,16 +136,17 @@ std::uint32_t BrightLuxels::pick(std::uint32_t node, double number) const {
   double left = number * static_cast<double>(shine_[node].strength);
   std::uint32_t picked = leaf.first;
   for (std::uint32_t place = leaf.first; place < leaf.last; ++place) {
-    const float rest = rest_of(place);
-    if (rest == 0) continue;
+    if (!is_bright(place)) continue;
     picked = place;
-    left -= static_cast<double>(sum_of(exitance_[place]) * rest * tree_.luxels()[place].area);
+    left -= static_cast<double>(sum_of(exitance_[place]) * tree_.luxels()[place].area);
     if (left < 0) break;
   }
   return picked;
 }
 
-void BrightLuxels::add(Sum& sum, const Shine& shine, std::uint32_t seen) const {
+// `seen`: the place of one of the luxels, for a number in [0, 1).
+template <class Seen>
+void BrightLuxels::add(Sum& sum, const Shine& shine, Seen seen) const {
   const Luxel& receiver = tree_.luxels()[sum.receiver];
   const glm::vec3 way = shine.centre - receiver.position_ws;
   const float squared = glm::dot(way, way);
@@ -155,8 +154,15 @@ void BrightLuxels::add(Sum& sum, const Shine& shine, std::uint32_t seen) const {
   const float factor = form_factor(shine.area, glm::dot(receiver.normal_ws, direction),
                                    -glm::dot(shine.axis, direction), squared);
   if (factor == 0) return;
-  sum.irradiance +=
-      shine.flux * (factor / shine.area) * sum.rays.transmittance(sum.receiver, seen, sum.scratch);
+  const glm::vec3 unshadowed = shine.flux * (factor / shine.area);
+  const float wanted = std::ceil(strongest(unshadowed) / most_even_ * kRaysForEven);
+  const int rays = static_cast<int>(std::clamp(wanted, 1.0F, static_cast<float>(kRaysForEven)));
+  glm::vec3 arrived(0);
+  for (int ray = 0; ray < rays; ++ray) {
+    const std::uint32_t place = seen((ray + shift_of(sum.receiver).u) / rays);
+    arrived += sum.rays.transmittance(sum.receiver, place, sum.scratch);
+  }
+  sum.irradiance += unshadowed * (arrived / static_cast<float>(rays));
 }
 
 glm::vec3 BrightLuxels::irradiance_at(std::uint32_t receiver, const LuxelRays& rays,
@@ -174,10 +180,11 @@ glm::vec3 BrightLuxels::irradiance_at(std::uint32_t receiver, const LuxelRays& r
     if (shine.strength == 0 || is_below(shine.low_ws, shine.high_ws, luxel.position_ws, luxel.normal_ws))
       continue;
     if (can_be_one(sum, index)) {
-      add(sum, shine, pick(index, shift_of(receiver).u));
+      add(sum, shine, [&](double number) { return pick(index, number); });
     } else if (node.is_leaf()) {
       for (std::uint32_t place = node.first; place < node.last; ++place) {
-        if (rest_of(place) > 0 && !is_near(receiver, place)) add(sum, shine_of(place), place);
+        if (is_bright(place) && !is_near(receiver, place))
+          add(sum, shine_of(place), [&](double) { return place; });
       }
     } else {
       open[count++] = node.second;

@@ -12,30 +12,25 @@
 
 namespace laterna::bake {
 
-/// Splits what luxels give off in two: an even part, no more than twice the mean, which rays find well, and the rest. Sums
-/// of the rest are taken over a tree as lightcuts do (Walter and others, Lightcuts, 2005), with the form factor
-/// from a point to a disc, A cos θ cos θ' / (π d² + A) (Wallace, Elmquist and Haines, A ray tracing algorithm for
-/// progressive radiosity, 1989). That factor is good from a few widths of the luxel on. What is nearer is left to rays, which
-/// meet it often.
+/// Tells luxels that give off more than twice the mean from the rest, which rays find well. Sums of the bright ones are taken
+/// over a tree as lightcuts do (Walter and others, Lightcuts, 2005), with the form factor from a point to a disc,
+/// A cos θ cos θ' / (π d² + A) (Wallace, Elmquist and Haines, A ray tracing algorithm for progressive radiosity, 1989). That
+/// factor is good from a few widths of the luxel on. What is nearer is left to rays, which meet it often.
 class BrightLuxels {
  public:
   /// `exitance`: what each place gives off. Tree and exitance must outlive this.
   BrightLuxels(const LuxelTree& tree, std::span<const glm::vec3> exitance);
 
-  /// Whether rays from one place to another bring all that the latter gives off, not its even part alone.
+  /// Whether what a ray from one place to another brings is not part of irradiance_at().
   [[nodiscard]] bool is_left_to_rays(std::uint32_t receiver, std::uint32_t place) const {
-    return rest_of(place) == 0 || is_near(receiver, place);
+    return !is_bright(place) || is_near(receiver, place);
   }
-  /// What a ray brings from a place, all or the even part.
-  [[nodiscard]] glm::vec3 found_by_ray(std::uint32_t place, bool all) const {
-    return all ? exitance_[place] : exitance_[place] * (1 - rest_of(place));
-  }
-  /// The irradiance at `receiver` from all that rays leave out.
+  /// The irradiance at `receiver` from all bright luxels that are not left to rays.
   [[nodiscard]] glm::vec3 irradiance_at(std::uint32_t receiver, const LuxelRays& rays,
                                         LuxelRays::Scratch& scratch) const;
 
  private:
-  // Of a node's luxels, the part that rays leave out.
+  // Of a node's bright luxels.
   struct Shine {
     glm::vec3 flux{0};    // over all of them
     glm::vec3 centre{0};  // mean position and
@@ -50,11 +45,12 @@ class BrightLuxels {
   };
   struct Sum;
 
-  [[nodiscard]] float rest_of(std::uint32_t place) const;
+  [[nodiscard]] bool is_bright(std::uint32_t place) const;
   [[nodiscard]] bool is_near(std::uint32_t receiver, std::uint32_t place) const;
   [[nodiscard]] Shine shine_of(std::uint32_t place) const;
   [[nodiscard]] Shine shine_below(std::uint32_t node) const;
-  void add(Sum& sum, const Shine& shine, std::uint32_t seen) const;
+  template <class Seen>
+  void add(Sum& sum, const Shine& shine, Seen seen) const;
   [[nodiscard]] bool can_be_one(const Sum& sum, std::uint32_t node) const;
   [[nodiscard]] std::uint32_t pick(std::uint32_t node, double number) const;
 

@@ -1,5 +1,6 @@
 #include "bake/luxel_rays.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -29,10 +30,12 @@ glm::vec3 cosine_weighted(const glm::vec3& normal, double u, double v) {
   return tangent * x + bitangent * y + normal * z;
 }
 
-// A luxel's position is off its triangle by a few roundings of its coordinates; nearer than these nothing is met.
-float nearest_met(const Luxel& luxel) {
-  const glm::vec3 size = glm::abs(luxel.position_ws);
-  return 16 * std::numeric_limits<float>::epsilon() * std::max(size.x, std::max(size.y, size.z));
+// A luxel's position and the planes of its triangle's neighbours are off by roundings of the triangle's coordinates; nearer
+// than a few of these nothing is met.
+float nearest_met(const frame::Frame& frame, const Luxel& luxel) {
+  glm::vec3 size(0);
+  for (unsigned k = 0; k < 3; ++k) size = glm::max(size, glm::abs(frame.corner_ws(luxel.triangle, k)));
+  return 4 * std::numeric_limits<float>::epsilon() * std::max(size.x, std::max(size.y, size.z));
 }
 
 // The normal of a triangle on the side from which a ray comes; no unit vector, but 0, of one without area.
@@ -57,7 +60,7 @@ Sight LuxelRays::look(std::uint32_t place, int ray, int count, Scratch& scratch)
   const PlaceShift shift = shift_of(place);
   const glm::vec3 direction =
       cosine_weighted(luxel.normal_ws, fraction_of(point.u + shift.u), fraction_of(point.v + shift.v));
-  const float near = nearest_met(luxel);
+  const float near = nearest_met(frame_, luxel);
   const auto hit = rays_.find_nearest(luxel.position_ws, direction, near,
                                       std::numeric_limits<float>::infinity(), luxel.triangle);
   if (!hit) return {};
@@ -73,7 +76,7 @@ glm::vec3 LuxelRays::transmittance(std::uint32_t from, std::uint32_t to, Scratch
   const Luxel& start = tree_.luxels()[from];
   const glm::vec3 way = tree_.luxels()[to].position_ws - start.position_ws;
   const float length = glm::length(way);
-  const float near = nearest_met(start);
+  const float near = nearest_met(frame_, start);
   const float far = length - std::max(near, 1e-4F * length);  // short of the other luxel's triangle
   if (!(far > near)) return glm::vec3(1);
   const glm::vec3 direction = way / length;

@@ -81,13 +81,13 @@ class Solver {
   Result<Interreflection> solve();
 
  private:
-  // A ray's end, remembered: the luxel, and whether what it gives off is all left to rays.
+  // A ray's end, remembered: the luxel, and whether what it gives off before any bounce is left to rays.
   class End {
    public:
     End() = default;
-    End(std::uint32_t place, bool is_whole) : word_(place << 1U | static_cast<std::uint32_t>(is_whole)) {}
+    End(std::uint32_t place, bool is_counted) : word_(place << 1U | static_cast<std::uint32_t>(is_counted)) {}
     [[nodiscard]] std::uint32_t place() const { return word_ >> 1U; }
-    [[nodiscard]] bool is_whole() const { return (word_ & 1U) != 0; }
+    [[nodiscard]] bool is_counted() const { return (word_ & 1U) != 0; }
 
    private:
     std::uint32_t word_ = kNoLuxel << 1U;
@@ -180,7 +180,8 @@ glm::vec3 Solver::gather(std::size_t patch) const {
   for (auto i = row; i < row + static_cast<std::size_t>(settings_.rays); ++i) {
     const End end = ends_[i];
     if (end.place() == kNoLuxel) continue;
-    const glm::vec3 light = bright_.found_by_ray(end.place(), end.is_whole()) + reflected(end.place());
+    const glm::vec3 light =
+        (end.is_counted() ? exitance_[end.place()] : glm::vec3(0)) + reflected(end.place());
     sum += tints_.empty() ? light : light * tints_[i];
   }
   return brought_[patch] + sum / static_cast<float>(settings_.rays);
@@ -191,8 +192,8 @@ glm::vec3 Solver::gather_at(std::uint32_t place, LuxelRays::Scratch& scratch) co
   for (int ray = 0; ray < settings_.rays; ++ray) {
     const Sight sight = rays_.look(place, ray, settings_.rays, scratch);
     if (sight.place == kNoLuxel) continue;
-    const bool is_whole = bright_.is_left_to_rays(place, sight.place);
-    sum += sight.tint * (bright_.found_by_ray(sight.place, is_whole) + reflected(sight.place));
+    const bool is_counted = bright_.is_left_to_rays(place, sight.place);
+    sum += sight.tint * ((is_counted ? exitance_[sight.place] : glm::vec3(0)) + reflected(sight.place));
   }
   return bright_.irradiance_at(place, rays_, scratch) + sum / static_cast<float>(settings_.rays);
 }
