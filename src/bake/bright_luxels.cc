@@ -22,7 +22,8 @@ constexpr float kLargestSine = 0.1F;
 constexpr float kLeastAgreement = 0.97F;
 // Whether they are seen is asked by so many rays where they bring as much as a sky of what is hardly not bright would, and by
 // fewer where they bring less: penumbrae of lamps are smooth, and of a thousand faint luxels each needs one.
-constexpr int kRaysForEven = 16;
+constexpr float kRaysForEven = 16;
+constexpr float kMostRays = 64;
 
 float strongest(const glm::vec3& light) { return std::max(light.x, std::max(light.y, light.z)); }
 
@@ -156,7 +157,7 @@ void BrightLuxels::add(Sum& sum, const Shine& shine, Seen seen) const {
   if (factor == 0) return;
   const glm::vec3 unshadowed = shine.flux * (factor / shine.area);
   const float wanted = std::ceil(strongest(unshadowed) / most_even_ * kRaysForEven);
-  const int rays = static_cast<int>(std::clamp(wanted, 1.0F, static_cast<float>(kRaysForEven)));
+  const int rays = static_cast<int>(std::clamp(wanted, 1.0F, kMostRays));
   glm::vec3 arrived(0);
   for (int ray = 0; ray < rays; ++ray) {
     const std::uint32_t place = seen((ray + shift_of(sum.receiver).u) / rays);

@@ -38,15 +38,6 @@ float nearest_met(const frame::Frame& frame, const Luxel& luxel) {
   return 4 * std::numeric_limits<float>::epsilon() * std::max(size.x, std::max(size.y, size.z));
 }
 
-// The normal of a triangle on the side from which a ray comes; no unit vector, but 0, of one without area.
-glm::vec3 met_normal(const frame::Frame& frame, TriangleId id, const glm::vec3& direction_ws) {
-  const glm::vec3 a = frame.corner_ws(id, 0);
-  const glm::vec3 cross = glm::cross(frame.corner_ws(id, 1) - a, frame.corner_ws(id, 2) - a);
-  const float length = glm::length(cross);
-  if (!(length > 0)) return glm::vec3(0);
-  return cross * ((glm::dot(cross, direction_ws) > 0 ? -1.0F : 1.0F) / length);
-}
-
 }  // namespace
 
 PlaceShift shift_of(std::uint32_t place) {
@@ -64,12 +55,9 @@ Sight LuxelRays::look(std::uint32_t place, int ray, int count, Scratch& scratch)
   const auto hit = rays_.find_nearest(luxel.position_ws, direction, near,
                                       std::numeric_limits<float>::infinity(), luxel.triangle);
   if (!hit) return {};
-  const MetSurface met = {luxel.position_ws + direction * hit->distance,
-                          met_normal(frame_, hit->id, direction),
-                          frame_.clusters[cluster_of(hit->id)].object};
-  const auto found = tree_.find(met);
-  if (!found) return {};
-  return {*found, tint_along(luxel, direction, near, hit->distance, scratch)};
+  const std::uint32_t met = grids_.place_at(*hit, direction);
+  if (met == kNoLuxel) return {};
+  return {met, tint_along(luxel, direction, near, hit->distance, scratch)};
 }
 
 glm::vec3 LuxelRays::transmittance(std::uint32_t from, std::uint32_t to, Scratch& scratch) const {

@@ -5,13 +5,12 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "bake/luxel_grids.h"
 #include "bake/luxel_tree.h"
 #include "shadow/panes.h"
 #include "trace/ray_scene.h"
 
 namespace laterna::bake {
-
-inline constexpr std::uint32_t kNoLuxel = 0x7FFFFFFFU;
 
 /// The luxel that a ray has met, and the part of each channel that panes in between let through.
 struct Sight {
@@ -28,8 +27,9 @@ class LuxelRays {
     std::vector<shadow::PaneColor> colors;
   };
 
-  LuxelRays(const frame::Frame& frame, const trace::RayScene& rays, const LuxelTree& tree)
-      : frame_(frame), rays_(rays), tree_(tree) {}
+  LuxelRays(const frame::Frame& frame, const trace::RayScene& rays, const LuxelTree& tree,
+            const TaskPool& pool)
+      : frame_(frame), rays_(rays), tree_(tree), grids_(frame, tree, pool) {}
 
   /// Ray number `ray` of `count` that leave a luxel, cosine-weighted about its normal: of irradiance π L each brings
   /// 1 / count of what it meets. The rays of one luxel fill the hemisphere evenly (a lattice), those of its neighbours fill
@@ -48,6 +48,7 @@ class LuxelRays {
   const frame::Frame& frame_;
   const trace::RayScene& rays_;
   const LuxelTree& tree_;
+  LuxelGrids grids_;
 };
 
 /// A number in [0, 1) for each place, in each of two dimensions: Kronecker's sequence of the plastic number (Roberts, The

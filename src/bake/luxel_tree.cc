@@ -26,7 +26,7 @@ struct Extent {
   }
 };
 
-float squared_distance(const LuxelNode& node, const glm::vec3& point) {
+float squared_distance_to(const LuxelNode& node, const glm::vec3& point) {
   const glm::vec3 outside = glm::max(glm::max(node.low_ws - point, point - node.high_ws), glm::vec3(0));
   return glm::dot(outside, outside);
 }
@@ -53,17 +53,19 @@ LuxelTree::LuxelTree(const frame::Frame& frame, std::span<const Luxel> luxels)
   if (!luxels.empty()) split(0, static_cast<std::uint32_t>(luxels.size()));
   for (std::size_t place = 0; place < order_.size(); ++place) luxels_[place] = luxels[order_[place]];
 
-  has_luxels_.resize(frame.object_names.size());
-  double area = 0;
-  float largest = 0;
+  std::vector<double> areas(frame.object_names.size());
+  std::vector<std::size_t> counts(areas.size());
   for (std::uint32_t place = 0; place < luxels_.size(); ++place) {
-    has_luxels_[object_at(place)] = true;
-    area += luxels_[place].area;
-    largest = std::max(largest, luxels_[place].area);
+    const std::uint32_t object = object_at(place);
+    areas[object] += static_cast<double>(luxels_[place].area);
+    ++counts[object];
+    largest_area_ = std::max(largest_area_, luxels_[place].area);
   }
-  const auto mean = static_cast<float>(area / static_cast<double>(std::max<std::size_t>(1, luxels_.size())));
-  least_reach_squared_ = kReach * kReach * mean;
-  most_reach_squared_ = kReach * kReach * largest;
+  mean_areas_.resize(areas.size());
+  for (std::size_t object = 0; object < areas.size(); ++object) {
+    if (counts[object] > 0)
+      mean_areas_[object] = static_cast<float>(areas[object] / static_cast<double>(counts[object]));
+  }
 }
 
 // Luxels keep their places until all are ordered; `order_` alone is sorted.
@@ -90,20 +92,24 @@ void LuxelTree::split(std::uint32_t first, std::uint32_t last) {
   split(middle, last);
 }
 
+float LuxelTree::squared_distance(const MetSurface& met, std::uint32_t place) const {
+  const glm::vec3 offset = luxels_[place].position_ws - met.position_ws;
+  const float off_surface = glm::dot(offset, met.normal_ws);
+  return glm::dot(offset, offset) + kOffSurface * off_surface * off_surface;
+}
+
 std::optional<std::uint32_t> LuxelTree::find(const MetSurface& met) const {
-  if (nodes_.empty() || !has_luxels_[met.object]) return std::nullopt;
-  float nearest = most_reach_squared_;
+  const float mean_area = mean_areas_[met.object];
+  if (!(mean_area > 0)) return std::nullopt;
+  float nearest = kReach * kReach * largest_area_;
   std::optional<std::uint32_t> found;
   const auto look_into = [&](const LuxelNode& leaf) {
     for (std::uint32_t place = leaf.first; place < leaf.last; ++place) {
       const Luxel& luxel = luxels_[place];
-      if (glm::dot(luxel.normal_ws, met.normal_ws) < kLeastAgreement || object_at(place) != met.object)
-        continue;
-      const glm::vec3 offset = luxel.position_ws - met.position_ws;
-      const float off_surface = glm::dot(offset, met.normal_ws);
-      const float distance = glm::dot(offset, offset) + kOffSurface * off_surface * off_surface;
-      if (distance >= nearest || distance > std::max(least_reach_squared_, kReach * kReach * luxel.area))
-        continue;
+      if (glm::dot(luxel.normal_ws, met.normal_ws) < kLeastAgreement) continue;
+      const float distance = squared_distance(met, place);
+      if (distance >= nearest || distance > kReach * kReach * std::max(mean_area, luxel.area)) continue;
+      if (object_at(place) != met.object) continue;
       nearest = distance;
       found = place;
     }
@@ -114,7 +120,7 @@ std::optional<std::uint32_t> LuxelTree::find(const MetSurface& met) const {
   };
   std::array<Open, 64> open;  // a balanced tree of 2³¹ luxels is 29 deep
   std::size_t count = 0;
-  open[count++] = {0, squared_distance(nodes_[0], met.position_ws)};
+  open[count++] = {0, squared_distance_to(nodes_[0], met.position_ws)};
   while (count > 0) {
     const auto [index, distance] = open[--count];
     if (distance >= nearest) continue;
@@ -123,8 +129,8 @@ std::optional<std::uint32_t> LuxelTree::find(const MetSurface& met) const {
       look_into(node);
       continue;
     }
-    const Open one = {index + 1, squared_distance(nodes_[index + 1], met.position_ws)};
-    const Open other = {node.second, squared_distance(nodes_[node.second], met.position_ws)};
+    const Open one = {index + 1, squared_distance_to(nodes_[index + 1], met.position_ws)};
+    const Open other = {node.second, squared_distance_to(nodes_[node.second], met.position_ws)};
     const bool one_is_nearer = one.distance <= other.distance;
     open[count++] = one_is_nearer ? other : one;
     open[count++] = one_is_nearer ? one : other;

@@ -21,7 +21,7 @@ struct LuxelNode {
   [[nodiscard]] bool is_leaf() const { return second == 0; }
 };
 
-/// A point on a surface that a ray has met, and the triangle's normal on the side from which the ray came.
+/// A point on a surface that a ray may meet, and the triangle's unit normal on the side from which it comes.
 struct MetSurface {
   glm::vec3 position_ws, normal_ws;
   std::uint32_t object = 0;
@@ -41,10 +41,15 @@ class LuxelTree {
   /// Parents before their children; the first is the root.
   [[nodiscard]] std::span<const LuxelNode> nodes() const { return nodes_; }
 
+  /// Mean area of an object's luxels; 0 where it has none.
+  [[nodiscard]] float mean_area(std::uint32_t object) const { return mean_areas_[object]; }
+
   /// The place of the luxel that stands for a point: the nearest of the same object that faces the same way, no farther off
   /// than a few of its own widths. Distances off the surface count four times, so that of two parallel sheets the right one
   /// is found.
   [[nodiscard]] std::optional<std::uint32_t> find(const MetSurface& met) const;
+  /// What is least of the luxel that find() finds.
+  [[nodiscard]] float squared_distance(const MetSurface& met, std::uint32_t place) const;
 
  private:
   void split(std::uint32_t first, std::uint32_t last);
@@ -56,9 +61,8 @@ class LuxelTree {
   std::vector<Luxel> luxels_;
   std::vector<std::uint32_t> order_;
   std::vector<LuxelNode> nodes_;
-  std::vector<bool> has_luxels_;   // by object
-  float least_reach_squared_ = 0;  // how far any luxel reaches at least,
-  float most_reach_squared_ = 0;   // and at most
+  std::vector<float> mean_areas_;  // by object
+  float largest_area_ = 0;
 };
 
 }  // namespace laterna::bake

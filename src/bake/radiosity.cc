@@ -69,7 +69,7 @@ class Solver {
       : settings_(settings),
         pool_(pool),
         tree_(frame, luxels),
-        rays_(frame, rays, tree_),
+        rays_(frame, rays, tree_, pool),
         patches_(luxels.size()),
         exitance_(initial_exitance(tree_, sources)),
         bright_(tree_, exitance_),
