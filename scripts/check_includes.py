@@ -31,6 +31,7 @@ ROOMS = {
 PUBLIC_HEADERS = {
     "accuracy.h": "measure",
     "animation.h": "scene",
+    "bake.h": "bake",
     "blend.h": "scene",
     "build_info.h": "measure",
     "environment.h": "image",
