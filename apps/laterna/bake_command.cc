@@ -20,6 +20,7 @@ struct Options {
   BakeSettings bake;
   std::string output;
   bool embeds = false, json = false;
+  RadiositySettings radiosity{.bounces = 0};
 };
 
 void print_report(const BakeReport& r, const std::string& output) {
@@ -36,6 +37,7 @@ void print_report(const BakeReport& r, const std::string& output) {
       "  luxels:  {}, {} of them lit or padding, {:.1f} % of the area is surface, {:.1f} MB in memory\n",
       r.luxels, r.lit_luxels, 100 * r.used, static_cast<double>(r.bytes) / 1e6);
   fmt::print("  density: {:.4g} to {:.4g} luxels per metre\n", r.least_density, r.greatest_density);
+  if (r.bounces > 0) fmt::print("  bounces: {}\n", r.bounces);
   fmt::print("  time:    {:.2f} s laying out, {:.2f} s light", r.layout_ms / 1000, r.light_ms / 1000);
   if (r.resumed_strips > 0) fmt::print("; {} of {} parts were there already", r.resumed_strips, r.strips);
   fmt::print("\n");
@@ -53,6 +55,7 @@ nlohmann::ordered_json report_json(const BakeReport& r) {
   json["lit_luxels"] = r.lit_luxels;
   json["used"] = r.used;
   json["luxels_per_metre"] = {r.least_density, r.greatest_density};
+  json["bounces"] = r.bounces;
   json["bytes"] = r.bytes;
   json["parts"] = r.strips;
   json["resumed_parts"] = r.resumed_strips;
@@ -75,6 +78,7 @@ int run_bake(Options options) {
   if (!machine) return report(machine.error());
   options.bake.options = std::move(*machine);
   options.bake.options.time = options.scene.time;
+  if (options.radiosity.bounces > 0) options.bake.interreflection = options.radiosity;
   options.bake.work_file = options.output;
   Result<BakedScene> baked = bake_light(std::move(*scene), options.bake, progress_line("baking"));
   if (!baked) return report(baked.error());
@@ -120,6 +124,15 @@ void declare_bake(CLI::App& app, Run& run) {
       ->check(CLI::Range(1, kMaxAccumulated))
       ->capture_default_str();
   command
+      ->add_option(
+          "--bounces", o.radiosity.bounces,
+          "how often light is reflected from surface to surface, by radiosity; 0: direct light alone")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command->add_option("--bounce-rays", o.radiosity.rays, "rays from each luxel that find what it is lit by")
+      ->check(CLI::Range(16, 65536))
+      ->capture_default_str();
+  command
       ->add_option("--ambient-occlusion", b.occlusion_rays,
                    "rays from each luxel that find how much ambient light arrives; 0: none")
       ->check(CLI::Range(0, kMostOcclusionRays))
@@ -154,6 +167,7 @@ void declare_bake(CLI::App& app, Run& run) {
       "\nExamples:\n"
       "  laterna bake room.glb --rig stage.json -o baked.glb\n"
       "  laterna bake room.glb --rig stage.json -o baked.glb --density 40 --samples 4\n"
+      "  laterna bake room.glb --rig stage.json -o baked.glb --bounces 100\n"
       "  laterna bake room.glb -o baked.glb --ambient-occlusion 256 --occlusion-distance 1\n"
       "  laterna render baked.glb -o picture.png\n");
   command->callback([options, &run] { run = [options] { return run_bake(*options); }; });

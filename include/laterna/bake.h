@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "laterna/radiosity.h"
 #include "laterna/render.h"
 
 namespace laterna {
@@ -29,6 +31,8 @@ struct BakeSettings {
   int samples = 2;
   /// Lights that have a size, and lenses that are open: the mean over this many of their points. 1 … kMaxAccumulated.
   int light_samples = 16;
+  /// How what surfaces reflect onto each other is found; unset: light maps hold the direct light alone.
+  std::optional<RadiositySettings> interreflection;
   /// Rays to all sides, by the cosine of their angle, that find how much of the ambient light arrives; 0: none is looked for.
   int occlusion_rays = 0;
   double occlusion_distance =
@@ -59,6 +63,7 @@ struct BakeReport {
   std::size_t strips = 0,
               resumed_strips = 0;  ///< parts in which the work was done, and those that were there already
   double layout_ms = 0, light_ms = 0;
+  int bounces = 0;                  ///< of interreflection, that were worked out
   std::vector<std::string> lights;  ///< that were baked
 };
 
@@ -72,7 +77,8 @@ struct BakedScene {
 
 /// Bakes the direct light of a scene, as it is posed now, with shadows by rays. What arrives at a luxel is what
 /// Renderer would find there with ShadowTechnique::raytraced, whatever the lights' own techniques, n·l of the surface's
-/// normals included (normal maps not). Surfaces that are not baked, with a warning: those that wear skins or morph, or use
+/// normals included (normal maps not); with
+/// BakeSettings::interreflection, what surfaces reflect onto each other as well. Surfaces that are not baked, with a warning: those that wear skins or morph, or use
 /// their second texture coordinates for something else; those without a light to reflect (unlit) need none.
 /// The result depends on neither threads nor instruction set. `progress` may stop it: Failure::cancelled.
 /// Errors: a faulty setting or scene, a light that is not there, more than kMostLuxels.

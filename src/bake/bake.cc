@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 
+#include "bake/bounced_light.h"
 #include "bake/light_map_layout.h"
 #include "bake/page_light.h"
 #include "bake/strip_files.h"
@@ -209,15 +210,19 @@ class Baker {
       const glm::ivec2 tiles = (page.size + kTileSide - 1) / kTileSide;
       steps += static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
     }
-    render::ProgressReport progress(progress_callback_, steps);
+    const double direct_part = settings_.interreflection ? kDirectPart : 1;
+    const Progress direct_progress = part_of_progress(0, direct_part);
+    render::ProgressReport progress(direct_progress, steps);
+    std::vector<std::unique_ptr<PageTriangles>> pages;
     for (std::size_t page = 0; page < layout_.pages.size(); ++page) {
       std::vector<bool> is_on_page;
       for (const int other : layout_.page_of_material) is_on_page.push_back(other == static_cast<int>(page));
       is_on_page.push_back(false);  // glTF's default material
-      const PageTriangles triangles(*frame, is_on_page, layout_.pages[page].size, settings_.padding);
+      pages.push_back(
+          std::make_unique<PageTriangles>(*frame, is_on_page, layout_.pages[page].size, settings_.padding));
       const PageContext context = {*frame,
                                    *rays,
-                                   triangles,
+                                   *pages.back(),
                                    direct,
                                    settings_.occlusion_rays > 0 ? &occlusion : nullptr,
                                    {settings_.samples, 1 / settings_.density},
@@ -227,7 +232,33 @@ class Baker {
       if (progress.is_cancelled())
         return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
     }
+    if (settings_.interreflection) {
+      if (Result<void> added = add_bounces(*frame, *rays, pages, part_of_progress(direct_part, 1)); !added)
+        return added;
+    }
     files.remove();
+    return {};
+  }
+
+  // Of the whole work, roughly, where there is interreflection.
+  static constexpr double kDirectPart = 0.3;
+
+  // Empty where nobody asks.
+  [[nodiscard]] Progress part_of_progress(double from, double to) const {
+    if (!progress_callback_) return {};
+    return [this, from, to](double done) { return progress_callback_(from + (to - from) * done); };
+  }
+
+  Result<void> add_bounces(const frame::Frame& frame, const trace::RayScene& rays,
+                           const std::vector<std::unique_ptr<PageTriangles>>& pages,
+                           const Progress& progress) {
+    std::vector<LitPage> lit;
+    for (std::size_t i = 0; i < pages.size(); ++i)
+      lit.push_back({pages[i].get(), pictures_[i].front.get(), pictures_[i].back.get()});
+    const Result<BouncedLight> bounced = add_bounced_light(frame, rays, lit, 1 / settings_.density,
+                                                           *settings_.interreflection, pool_, progress);
+    if (!bounced) return tl::unexpected(bounced.error());
+    report_.bounces = bounced->bounces;
     return {};
   }
 

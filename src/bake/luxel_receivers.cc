@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kTileLuxels = std::size_t{kTileSide} * kTileSide;
 // Of a luxel's side: how far receivers keep from edges, and how high above a surface a luxel looks along it.
 constexpr double kInset = 0.02, kLift = 0.02;
+// Of a luxel's area: what those stand for that only continue a surface.
+constexpr double kLeastArea = 1e-6;
 // Bilinear look-ups read luxels whose middles are less than a luxel away, in either direction.
 constexpr double kReadAtRim = 1.5;
 
@@ -47,7 +49,9 @@ class Patch {
 
   [[nodiscard]] bool has_area() const { return twice_area_ > 0; }
 
-  [[nodiscard]] Receiver at(std::uint32_t luxel, FlatWeights weights, double inset) const {
+  [[nodiscard]] double area() const { return twice_area_ / 2; }
+
+  [[nodiscard]] Receiver at(std::uint32_t luxel, FlatWeights weights, double inset, double area) const {
     std::array<double, 3> w = {1 - weights.b - weights.c, weights.b, weights.c};
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -64,7 +68,14 @@ class Patch {
     }
     const double length = std::sqrt(glm::dot(shading, shading));
     const glm::dvec3 smooth = length > 0 ? shading / length : normal_;
-    return {luxel, id_, glm::vec3(position), glm::vec3(normal_), glm::vec3(smooth)};
+    return {luxel,
+            id_,
+            glm::vec3(position),
+            glm::vec3(normal_),
+            glm::vec3(smooth),
+            static_cast<float>(w[1] / sum),
+            static_cast<float>(w[2] / sum),
+            static_cast<float>(area)};
   }
 
  private:
@@ -110,6 +121,17 @@ class TileReceivers {
     }
   }
 
+  void take_middles(std::vector<Receiver>& receivers) {
+    const double reach = page_.reach();
+    const auto least = static_cast<float>(kLeastArea * settings_.luxel_side * settings_.luxel_side);
+    for (const Receiver& inside : inside_) middles_[inside.luxel].area += inside.area;
+    for (std::uint32_t luxel = 0; luxel < kTileLuxels; ++luxel) {
+      if (nearest_[luxel] > reach * reach) continue;
+      receivers.push_back(middles_[luxel]);
+      receivers.back().area = std::max(receivers.back().area, least);
+    }
+  }
+
  private:
   [[nodiscard]] double inset() const { return kInset * settings_.luxel_side; }
   [[nodiscard]] std::uint32_t luxel_at(int x, int y) const {
@@ -132,18 +154,20 @@ class TileReceivers {
       const std::uint32_t luxel = luxel_at(x, y);
       if (!(squared < nearest_[luxel])) return;
       nearest_[luxel] = squared;
-      middles_[luxel] = patch.at(luxel, weights, inset());
+      middles_[luxel] = patch.at(luxel, weights, inset(), 0);
     });
   }
 
   void find_inside(const FlatTriangle& flat, const Patch& patch) {
     const int n = settings_.samples;
+    const double flat_area = std::abs(flat.twice_area()) / 2;
+    const double area = flat_area > 0 ? patch.area() / (flat_area * n * n) : 0;
     for_luxels(flat.low(), flat.high(), [&](int x, int y) {
       for (int i = 0; i < n * n; ++i) {
         const glm::dvec2 place(x + (i % n + 0.5) / n, y + (i / n + 0.5) / n);
         if (!flat.holds(place)) continue;
         double squared = 0;
-        inside_.push_back(patch.at(luxel_at(x, y), flat.nearest(place, squared), inset()));
+        inside_.push_back(patch.at(luxel_at(x, y), flat.nearest(place, squared), inset(), area));
       }
     });
   }
@@ -209,6 +233,16 @@ void find_receivers(const frame::Frame& frame, const trace::RayScene& rays, cons
   TileReceivers found(frame, page, tile, settings);
   for (const TriangleId id : triangles) found.add(id);
   found.take(rays, receivers);
+}
+
+void find_middles(const frame::Frame& frame, const PageTriangles& page, glm::ivec2 tile,
+                  const ReceiverSettings& settings, std::vector<Receiver>& receivers) {
+  receivers.clear();
+  const std::span<const TriangleId> triangles = page.at(tile);
+  if (triangles.empty()) return;
+  TileReceivers found(frame, page, tile, settings);
+  for (const TriangleId id : triangles) found.add(id);
+  found.take_middles(receivers);
 }
 
 }  // namespace laterna::bake

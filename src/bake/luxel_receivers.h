@@ -20,8 +20,10 @@ struct Receiver {
   std::uint32_t luxel = 0;  ///< in the tile, row by row
   TriangleId id = kNoTriangle;
   glm::vec3 position_ws{0};
-  glm::vec3 normal_ws{0};          ///< of the triangle, unit, on its front
-  glm::vec3 shading_normal_ws{0};  ///< unit, on that side too
+  glm::vec3 normal_ws{0};            ///< of the triangle, unit, on its front
+  glm::vec3 shading_normal_ws{0};    ///< unit, on that side too
+  float weight_b = 0, weight_c = 0;  ///< of its triangle's second and third corner
+  float area = 0;                    ///< of the surface that it stands for, in square metres
 };
 
 /// The triangles of a page, by the tiles that they and what continues them reach.
@@ -51,9 +53,14 @@ struct ReceiverSettings {
 
 /// The receivers of one tile, by luxel. A luxel that holds none of the places where it is sampled has the point of a surface
 /// that is nearest to its middle, where one is within reach. No receiver lies within a fiftieth of a luxel of an edge of its
-/// triangle, where a triangle allows: there it might lie in the wall beside a floor. One that the luxel's middle cannot see along the surface is left out:
-/// it lies in another room.
+/// triangle, where a triangle allows: there it might lie in the wall beside a floor. One that the luxel's middle cannot see
+/// along the surface is left out: it lies in another room.
 void find_receivers(const frame::Frame& frame, const trace::RayScene& rays, const PageTriangles& page,
                     glm::ivec2 tile, const ReceiverSettings& settings, std::vector<Receiver>& receivers);
+
+/// One receiver for each of these luxels, the point that is nearest to its middle. It stands for all of the surface in the
+/// luxel; for next to nothing, where there is none.
+void find_middles(const frame::Frame& frame, const PageTriangles& page, glm::ivec2 tile,
+                  const ReceiverSettings& settings, std::vector<Receiver>& receivers);
 
 }  // namespace laterna::bake
