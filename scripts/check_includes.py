@@ -48,6 +48,7 @@ PUBLIC_HEADERS = {
     "output.h": "base",
     "polar_plot.h": "measure",
     "probes.h": "render",
+    "quake_surfaces.h": "bake",
     "radiosity.h": "bake",
     "render.h": "render",
     "photograph_files.h": "scene",

@@ -10,12 +10,12 @@
 
 #include "bake/bounced_light.h"
 #include "bake/light_map_layout.h"
+#include "bake/own_frame.h"
 #include "bake/page_light.h"
 #include "bake/strip_files.h"
 #include "base/refuse.h"
 #include "base/stopwatch.h"
 #include "base/without_exceptions.h"
-#include "frame/cluster_builder.h"
 #include "frame/place_lights.h"
 #include "render/scene_defaults.h"
 #include "render/settings_check.h"
@@ -163,24 +163,6 @@ class Baker {
     }
   }
 
-  Result<frame::Frame> make_frame() {
-    frame::TextureLoading pictures(scene_, set_, settings_.options.time);
-    frame::MeshClustering clusters(scene_);
-    const std::size_t count = pictures.task_count();
-    pool_.for_each(count + clusters.task_count(), [&](std::size_t task, int) {
-      if (task < count) {
-        pictures.run(task);
-      } else {
-        clusters.run(task - count);
-      }
-    });
-    Result<frame::TextureLibrary> library = pictures.finish();
-    if (!library) return tl::unexpected(std::move(library.error()));
-    textures_ = std::make_shared<frame::TextureLibrary>(std::move(*library));
-    meshes_ = clusters.take();
-    return frame::Frame::build(scene_, textures_, meshes_, pool_);
-  }
-
   // Of all that decides what a luxel holds: the scene as a file would have it, and the settings of light.
   [[nodiscard]] Result<image::ContentKey> key() const {
     image::ContentKey key;
@@ -197,8 +179,9 @@ class Baker {
   }
 
   Result<void> light() {
-    Result<frame::Frame> frame = make_frame();
-    if (!frame) return tl::unexpected(std::move(frame.error()));
+    Result<std::unique_ptr<OwnFrame>> own = make_frame(scene_, settings_.options.time, set_, pool_);
+    if (!own) return tl::unexpected(std::move(own.error()));
+    const frame::Frame* frame = &(*own)->frame;
     const Result<image::ContentKey> content = key();
     if (!content) return tl::unexpected(content.error());
     StripFiles files(settings_.work_file, *content, settings_.resume);
@@ -361,8 +344,6 @@ class Baker {
   InstructionSet set_;
   std::vector<bool> is_baked_, was_enabled_;  // by light
   LightMapLayout layout_;
-  std::shared_ptr<frame::TextureLibrary> textures_;
-  frame::ClusteredMeshes meshes_;
   std::vector<PagePictures> pictures_;
   BakeReport report_;
 };

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "laterna/probes.h"
+#include "laterna/quake_surfaces.h"
 #include "reference/projector_scenes.h"
 
 namespace laterna {
@@ -37,7 +38,8 @@ std::vector<Luxel> luxels_of(const Scene& scene) {
         }
         const glm::dvec2 u = uv[1] - uv[0], v = uv[2] - uv[0];
         const double area = u.x * v.y - u.y * v.x;
-        const glm::dvec2 low = glm::min(uv[0], glm::min(uv[1], uv[2])), high = glm::max(uv[0], glm::max(uv[1], uv[2]));
+        const glm::dvec2 low = glm::min(uv[0], glm::min(uv[1], uv[2])),
+                         high = glm::max(uv[0], glm::max(uv[1], uv[2]));
         for (int y = static_cast<int>(low.y); y <= static_cast<int>(high.y) && y < map.height(); ++y) {
           for (int x = static_cast<int>(low.x); x <= static_cast<int>(high.x) && x < map.width(); ++x) {
             const glm::dvec2 d = glm::dvec2(x + 0.5, y + 0.5) - uv[0];
@@ -58,7 +60,8 @@ std::vector<Luxel> luxels_of(const Scene& scene) {
 Primitive room(glm::vec3 centre, glm::vec3 half) {
   Primitive walls = box(centre, half);
   for (glm::vec3& n : walls.normals) n = -n;
-  for (std::size_t i = 0; i + 2 < walls.indices.size(); i += 3) std::swap(walls.indices[i], walls.indices[i + 1]);
+  for (std::size_t i = 0; i + 2 < walls.indices.size(); i += 3)
+    std::swap(walls.indices[i], walls.indices[i + 1]);
   for (std::size_t i = 0; walls.indices.empty() && i + 2 < walls.positions.size(); i += 3)
     std::swap(walls.positions[i], walls.positions[i + 1]);
   return walls;
@@ -83,7 +86,9 @@ Scene furnished_room() {
   spot.inner_cone = Angle::degrees(15);
   spot.outer_cone = Angle::degrees(35);
   add_light(scene, spot, {1.5, 2.7, 1.5}, {-0.5, 0, -1});
-  const int slide = add_linear_picture(scene, 16, 16, [](int x, int y) { return glm::vec3(0.2F + 0.05F * float(x), 0.5F, 0.1F + 0.05F * float(y)); });
+  const int slide = add_linear_picture(scene, 16, 16, [](int x, int y) {
+    return glm::vec3(0.2F + 0.05F * float(x), 0.5F, 0.1F + 0.05F * float(y));
+  });
   Light beamer = projector("beamer", 0.4, 0.3, slide);
   beamer.intensity = 60;
   add_light(scene, beamer, {-1.5, 1.5, 1.2}, {1, 1.2, -1.9});
@@ -188,10 +193,12 @@ TEST(LightMaps, NoLightLeaksThroughWalls) {
       const double x = luxel.position_ws.x;
       if (x < -0.004) {
         ++dark;
-        EXPECT_EQ(luminance(luxel.irradiance), 0) << x << ' ' << luxel.position_ws.y << ' ' << luxel.position_ws.z;
+        EXPECT_EQ(luminance(luxel.irradiance), 0)
+            << x << ' ' << luxel.position_ws.y << ' ' << luxel.position_ws.z;
       } else if (x > 0.02) {
         ++lit;
-        EXPECT_GT(luminance(luxel.irradiance), 0.1) << x << ' ' << luxel.position_ws.y << ' ' << luxel.position_ws.z;
+        EXPECT_GT(luminance(luxel.irradiance), 0.1)
+            << x << ' ' << luxel.position_ws.y << ' ' << luxel.position_ws.z;
       }
     }
     EXPECT_GT(dark, 1000U);
@@ -217,7 +224,8 @@ TEST(LightMaps, OcclusionBeforeAWallIsItsFormFactor) {
   const Result<BakedScene> baked = bake_light(scene, settings);
   ASSERT_TRUE(baked);
   const Material& material = baked->scene.materials[0];
-  const Image& map = *baked->scene.pictures[static_cast<std::size_t>(material.occlusion_texture.picture)].pixels;
+  const Image& map =
+      *baked->scene.pictures[static_cast<std::size_t>(material.occlusion_texture.picture)].pixels;
   ASSERT_EQ(material.occlusion_texture.uv_set, 1);
   for (const Luxel& luxel : luxels_of(baked->scene)) {
     if (luxel.normal_ws.y < 0.5 || luxel.position_ws.z < 0.2) continue;
@@ -232,6 +240,67 @@ TEST(LightMaps, OcclusionBeforeAWallIsItsFormFactor) {
                                  static_cast<int>(uv.y * static_cast<float>(map.height())), 0);
     EXPECT_NEAR(open, 1 - 0.5 * (1 - d / std::hypot(d, 1.5)), 0.01);
   }
+}
+
+std::vector<std::uint8_t> bytes_of(const Image& image) {
+  const std::span<const std::uint8_t> values = image.values<std::uint8_t>();
+  return {values.begin(), values.end()};
+}
+
+// Row 72: on a walk more than 95 % of the surfaces are in the cache, and pictures are those that are drawn without one, and with
+// one that is too small for them.
+TEST(QuakeSurfaces, AWalkFindsItsSurfacesInTheCache) {
+  Scene scene = furnished_room();
+  BakeSettings baking;
+  baking.density = 2;
+  const Result<BakedScene> baked = bake_light(std::move(scene), baking);
+  ASSERT_TRUE(baked);
+  QuakeSettings settings{.width = 64, .height = 40};
+  Result<QuakeWalk> walk = QuakeWalk::create(baked->scene, settings);
+  settings.cache_bytes = 0;
+  Result<QuakeWalk> without = QuakeWalk::create(baked->scene, settings);
+  settings.cache_bytes = 40000;
+  Result<QuakeWalk> small = QuakeWalk::create(baked->scene, settings);
+  ASSERT_TRUE(walk && without && small);
+  constexpr int kPictures = 100;
+  for (int i = 0; i < kPictures; ++i) {
+    const double t = static_cast<double>(i) / kPictures;
+    const View view = look({-1.5 + t, 1.6, 1.5 - t}, {1.5 - 2 * t, 1, -1.5}, 70, 1.6);
+    const std::vector<std::uint8_t> picture = bytes_of(walk->draw(view));
+    if (i % 10 != 0) continue;
+    EXPECT_EQ(picture, bytes_of(without->draw(view)));
+    EXPECT_EQ(picture, bytes_of(small->draw(view)));
+  }
+  EXPECT_EQ(walk->statistics().pictures, static_cast<std::size_t>(kPictures));
+  EXPECT_GT(walk->statistics().asked, 500U);
+  EXPECT_GT(walk->statistics().hit_rate(), 0.95);
+  EXPECT_EQ(without->statistics().found, 0U);
+  EXPECT_GT(small->statistics().dropped, 0U);
+  EXPECT_LE(small->statistics().most_bytes, 40000U);
+}
+
+// Row 71: a surface shows its colour times its intensity, a byte of the greatest in the scene, in steps of no more than that
+// and the display's codes.
+TEST(QuakeSurfaces, AProductIsTextureTimesLightMap) {
+  Scene scene;
+  add_object(scene, "floor", floor(2), {0.25F, 0.5F, 1});
+  scene.materials[0].metallic = 0;
+  Light sun = lamp(LightType::directional, 1000);
+  add_light(scene, sun, {0, 5, 0}, {0, 0, 0}, {0, 0, -1});
+  const Result<BakedScene> baked = bake_light(scene, {});
+  ASSERT_TRUE(baked);
+  const auto middle = [&](double white_lux, QuakePicture picture) {
+    Result<QuakeWalk> walk =
+        QuakeWalk::create(baked->scene, {.width = 9, .height = 9, .white_lux = white_lux});
+    const Image image = walk->draw(look({0, 3, 0}, {0, 0, 0}, 40, 1, {0, 0, -1}), picture);
+    return glm::ivec3(image.value(4, 4, 0) * 255.0F + 0.5F, image.value(4, 4, 1) * 255.0F + 0.5F,
+                      image.value(4, 4, 2) * 255.0F + 0.5F);
+  };
+  EXPECT_EQ(middle(0, QuakePicture::texture), glm::ivec3(137, 188, 255));
+  EXPECT_EQ(middle(0, QuakePicture::product), glm::ivec3(137, 188, 255));
+  // 1000 lx of 5000 are the byte 51 of 255, 0.2.
+  EXPECT_EQ(middle(5000, QuakePicture::light_map), glm::ivec3(124));
+  EXPECT_EQ(middle(5000, QuakePicture::product), glm::ivec3(63, 89, 124));
 }
 
 }  // namespace

@@ -45,8 +45,7 @@ Scene lit_shapes() {
 
 TEST(Bake, PackedRectanglesKeepTheirDistance) {
   std::vector<glm::ivec2> sizes;
-  for (unsigned i = 0; i < 300; ++i)
-    sizes.emplace_back(1 + (i * 7919U) % 37U, 1 + (i * 104729U) % 23U);
+  for (unsigned i = 0; i < 300; ++i) sizes.emplace_back(1 + (i * 7919U) % 37U, 1 + (i * 104729U) % 23U);
   for (const int gap : {1, 3}) {
     for (const int side : {37, 128, 1024}) {
       const bake::PackedRectangles packed = bake::pack_rectangles(sizes, gap, side);
@@ -61,7 +60,9 @@ TEST(Bake, PackedRectanglesKeepTheirDistance) {
         ASSERT_LE(place.corner.y + sizes[i].y, packed.pages[place.page].y);
         for (int y = 0; y < sizes[i].y + gap; ++y) {
           for (int x = 0; x < sizes[i].x + gap; ++x) {
-            int& cell = owner[place.page][static_cast<std::size_t>((place.corner.y + y) * (side + gap) + place.corner.x + x)];
+            int& cell =
+                owner[place.page]
+                     [static_cast<std::size_t>((place.corner.y + y) * (side + gap) + place.corner.x + x)];
             ASSERT_EQ(cell, -1) << i;
             cell = static_cast<int>(i);
           }
@@ -73,7 +74,8 @@ TEST(Bake, PackedRectanglesKeepTheirDistance) {
 
 // Every triangle is in one chart, none is turned over in it, and no place of a chart belongs to two.
 TEST(Bake, ChartsHoldEveryTriangleOnceAndLieFlat) {
-  const Primitive shapes[] = {sphere({0, 0, 0}, 1, 16), torus({0, 0, 0}, 1, 0.4F, 16), box({0, 0, 0}, {1, 2, 3})};
+  const Primitive shapes[] = {sphere({0, 0, 0}, 1, 16), torus({0, 0, 0}, 1, 0.4F, 16),
+                              box({0, 0, 0}, {1, 2, 3})};
   for (const Primitive& shape : shapes) {
     std::vector<glm::dvec3> corners;
     for (std::size_t i = 0; i < std::max(shape.indices.size(), shape.positions.size()); ++i) {
@@ -87,9 +89,11 @@ TEST(Bake, ChartsHoldEveryTriangleOnceAndLieFlat) {
       for (const std::uint32_t t : chart.triangles) {
         ++uses[t];
         for (std::size_t k = 0; k < 3; ++k) flat.push_back(chart.flat(corners[3 * t + k]) - chart.low);
-        const glm::dvec2 u = flat[flat.size() - 2] - flat[flat.size() - 3], v = flat.back() - flat[flat.size() - 3];
+        const glm::dvec2 u = flat[flat.size() - 2] - flat[flat.size() - 3],
+                         v = flat.back() - flat[flat.size() - 3];
         const double area = u.x * v.y - u.y * v.x;
-        const double true_area = glm::length(glm::cross(corners[3 * t + 1] - corners[3 * t], corners[3 * t + 2] - corners[3 * t]));
+        const double true_area =
+            glm::length(glm::cross(corners[3 * t + 1] - corners[3 * t], corners[3 * t + 2] - corners[3 * t]));
         EXPECT_GE(area * (sign == 0 ? 1 : sign) * (area < 0 && sign == 0 ? -1 : 1), 0.866 * true_area);
         sign = area < 0 ? -1 : 1;
       }
@@ -109,7 +113,8 @@ TEST(Bake, ChartsHoldEveryTriangleOnceAndLieFlat) {
       }
     }
     for (std::size_t t = 0; t < uses.size(); ++t) {
-      const bool has_area = glm::length(glm::cross(corners[3 * t + 1] - corners[3 * t], corners[3 * t + 2] - corners[3 * t])) > 0;
+      const bool has_area = glm::length(glm::cross(corners[3 * t + 1] - corners[3 * t],
+                                                   corners[3 * t + 2] - corners[3 * t])) > 0;
       EXPECT_EQ(uses[t], has_area ? 1 : 0);
     }
   }
@@ -123,7 +128,8 @@ TEST(Bake, AWindingRampIsLaidOutWithoutOverlap) {
   };
   std::vector<glm::dvec3> corners;
   for (int i = 0; i < 70; ++i) {
-    for (const glm::vec3& p : {at(i, 1), at(i + 1, 2), at(i, 2), at(i, 1), at(i + 1, 1), at(i + 1, 2)}) corners.emplace_back(p);
+    for (const glm::vec3& p : {at(i, 1), at(i + 1, 2), at(i, 2), at(i, 1), at(i + 1, 1), at(i + 1, 2)})
+      corners.emplace_back(p);
   }
   const std::vector<bake::Chart> charts = bake::cut_into_charts(corners, 0.02, 100);
   EXPECT_GE(charts.size(), 3U);
@@ -159,7 +165,8 @@ TEST(Bake, WhatIsWrittenIsReadAndShownAsItWas) {
     ASSERT_TRUE(read);
     EXPECT_TRUE(read->warnings.empty());
     const LayeredImage again = render(make_renderer(*read), view, test_settings(64, 64));
-    for (std::size_t c = 0; c < shown.channels.size(); ++c) EXPECT_EQ(again.channels[c].values, shown.channels[c].values);
+    for (std::size_t c = 0; c < shown.channels.size(); ++c)
+      EXPECT_EQ(again.channels[c].values, shown.channels[c].values);
   }
 }
 
@@ -198,7 +205,8 @@ TEST(Bake, InstancesHaveTheirOwnLight) {
     if (node.mesh < 0) continue;
     const Primitive& p = baked->scene.meshes[static_cast<std::size_t>(node.mesh)].primitives[0];
     const Material& material = baked->scene.materials[static_cast<std::size_t>(p.material)];
-    const Image& map = *baked->scene.pictures[static_cast<std::size_t>(material.light_map.front.picture)].pixels;
+    const Image& map =
+        *baked->scene.pictures[static_cast<std::size_t>(material.light_map.front.picture)].pixels;
     const glm::vec2 uv = p.uv[1][0] * glm::vec2(map.width(), map.height());
     greatest.push_back(map.value(static_cast<int>(uv.x), static_cast<int>(uv.y), 0));
   }
@@ -271,7 +279,8 @@ TEST(Bake, RefusesWhatMakesNoSense) {
   settings = {};
   settings.density = 1000;
   EXPECT_EQ(message(lit_shapes(), settings),
-            "object \"floor\": a triangle of 4 m takes more than a light map of 2048 luxels: at most 511.75 luxels per "
+            "object \"floor\": a triangle of 4 m takes more than a light map of 2048 luxels: at most 511.75 "
+            "luxels per "
             "metre fit, asked for were 1000");
 }
 
@@ -283,14 +292,17 @@ TEST(LightMapFiles, FaultsAreNamedWithTheirPlaces) {
       {R"({})", "materials[0].extensions.LATERNA_light_map: expected \"front\""},
       {R"({"front": 3})", "materials[0].extensions.LATERNA_light_map.front: expected an object"},
       {R"({"front": {"index": 9}})", "materials[0].extensions.LATERNA_light_map.front.index"},
-      {R"({"front": {"uri": "data:,"}, "texCoord": 2})", "materials[0].extensions.LATERNA_light_map.texCoord"},
-      {R"({"front": {"uri": "data:,"}, "intensity": -1})", "materials[0].extensions.LATERNA_light_map.intensity"},
+      {R"({"front": {"uri": "data:,"}, "texCoord": 2})",
+       "materials[0].extensions.LATERNA_light_map.texCoord"},
+      {R"({"front": {"uri": "data:,"}, "intensity": -1})",
+       "materials[0].extensions.LATERNA_light_map.intensity"},
   };
   const TemporaryFolder folder;
   for (const auto& [extension, message] : kCases) {
     const std::filesystem::path file = folder.path() / "map.gltf";
-    std::ofstream(file) << R"({"asset": {"version": "2.0"}, "materials": [{"extensions": {"LATERNA_light_map": )" << extension
-                        << R"(}}], "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}], "bufferViews": [{"buffer": 0, "byteLength": 36}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}], "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})";
+    std::ofstream(file)
+        << R"({"asset": {"version": "2.0"}, "materials": [{"extensions": {"LATERNA_light_map": )" << extension
+        << R"(}}], "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}], "bufferViews": [{"buffer": 0, "byteLength": 36}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}], "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})";
     const Result<Scene> read = load_scene({file});
     ASSERT_FALSE(read) << extension;
     std::string all;
