@@ -10,6 +10,7 @@
 #include "laterna/write_scene.h"
 #include "outcome.h"
 #include "progress_line.h"
+#include "quake_demonstration.h"
 #include "scene_options.h"
 
 namespace laterna::app {
@@ -18,7 +19,7 @@ namespace {
 struct Options {
   SceneOptions scene;
   BakeSettings bake;
-  std::string output;
+  std::string output, quake;
   bool embeds = false, json = false;
   RadiositySettings radiosity{.bounces = 0};
 };
@@ -67,6 +68,11 @@ nlohmann::ordered_json report_json(const BakeReport& r) {
 int run_bake(Options options) {
   if (const Result<void> possible = check_scene_output(options.output); !possible)
     return report(possible.error());
+  if (!options.quake.empty()) {
+    if (options.json) return report(bad_option("--quake tells what it found in words: leave --json out"));
+    if (const Result<void> possible = check_quake_output(options.quake); !possible)
+      return report(possible.error());
+  }
   Result<Scene> scene = options.scene.load();
   if (!scene) return report(scene.error());
   if (!scene->clips.empty()) {
@@ -91,6 +97,10 @@ int run_bake(Options options) {
     fmt::print("{}\n", report_json(baked->report).dump(2));
   } else {
     print_report(baked->report, options.output);
+  }
+  if (!options.quake.empty()) {
+    if (const Result<void> shown = demonstrate_quake(baked->scene, options.quake); !shown)
+      return report(shown.error());
   }
   return kOk;
 }
@@ -146,6 +156,10 @@ void declare_bake(CLI::App& app, Run& run) {
                     "lay surfaces out anew even where their second texture coordinates serve");
   command->add_flag("--resume", b.resume, "go on where a run of the same bake was stopped");
   command->add_flag("--embed", o.embeds, "a .gltf of one piece");
+  command->add_option(
+      "--quake", o.quake,
+      "NAME.png: the first camera's view the way Quake showed it in 1996, NAME.texture.png, NAME.light.png "
+      "and NAME.product.png, and how often a walk finds its surfaces in the cache");
   o.scene.declare_machine(*command);
   command->add_flag("--json", o.json, "what was done, as JSON, to standard output");
   command->footer(

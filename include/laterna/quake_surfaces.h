@@ -19,7 +19,7 @@ struct QuakeSettings {
   /// Combined surfaces take at most so much memory, those of one picture apart; 0: none is kept from one to the next.
   std::size_t cache_bytes = std::size_t{16} << 20U;
   double white_lux = 0;  ///< irradiance of the intensity 255; 0: the greatest luminance in the light maps
-  RendererOptions options;
+  RendererOptions options = {};
 };
 
 enum class QuakePicture {
