@@ -31,6 +31,7 @@ ROOMS = {
 PUBLIC_HEADERS = {
     "accuracy.h": "measure",
     "animation.h": "scene",
+    "bake.h": "bake",
     "blend.h": "scene",
     "build_info.h": "measure",
     "environment.h": "image",
@@ -48,6 +49,8 @@ PUBLIC_HEADERS = {
     "output.h": "base",
     "polar_plot.h": "measure",
     "probes.h": "render",
+    "quake_surfaces.h": "bake",
+    "radiosity.h": "bake",
     "render.h": "render",
     "photograph_files.h": "scene",
     "photographs.h": "scene",

@@ -60,8 +60,9 @@ int main(int argc, char** argv) {
        {laterna::app::declare_render, laterna::app::declare_info, laterna::app::declare_inspect,
         laterna::app::declare_probe, laterna::app::declare_false_color, laterna::app::declare_depthmap,
         laterna::app::declare_ies, laterna::app::declare_photo, laterna::app::declare_convert,
-        laterna::app::declare_environment, laterna::app::declare_diff, laterna::app::declare_bench,
-        laterna::app::declare_accuracy, laterna::app::declare_gallery, laterna::app::declare_doctor}) {
+        laterna::app::declare_bake, laterna::app::declare_environment, laterna::app::declare_diff,
+        laterna::app::declare_bench, laterna::app::declare_accuracy, laterna::app::declare_gallery,
+        laterna::app::declare_doctor}) {
     declare(app, run);
   }
   if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1])) {

@@ -35,6 +35,7 @@ void declare_accuracy(CLI::App& app, Run& run);
 void declare_gallery(CLI::App& app, Run& run);
 void declare_photo(CLI::App& app, Run& run);
 void declare_convert(CLI::App& app, Run& run);
+void declare_bake(CLI::App& app, Run& run);
 void declare_environment(CLI::App& app, Run& run);
 void declare_doctor(CLI::App& app, Run& run);
 

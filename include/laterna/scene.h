@@ -77,6 +77,15 @@ struct SurfaceLayer {
 /// On one surface.
 inline constexpr std::size_t kMaxSurfaceLayers = 64;
 
+/// What was found to fall on a surface, kept in a picture (laterna/bake.h): irradiance in lux / `intensity`, as the light
+/// itself gives it, with the cosine of its angle. It is reflected diffusely, beside what lights give. docs/bake.md
+struct LightMap {
+  /// Linear light in a float picture; numbers 0 … 1 in others. `back`: of the side where corners run clockwise; unset: as
+  /// the front.
+  Texture front, back;
+  float intensity = 1;  ///< 0 … kMaxRadiance
+};
+
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 /// glTF 2.0 metallic-roughness. Factors are linear; textures multiply them.
@@ -97,6 +106,7 @@ struct Material {
   bool double_sided = false;
   bool unlit = false;                ///< KHR_materials_unlit: base colour is what is seen
   std::vector<SurfaceLayer> layers;  ///< at most kMaxSurfaceLayers
+  LightMap light_map;
 };
 
 /// Triangles of one material. Attributes are empty or as long as `positions`.

@@ -50,6 +50,8 @@ Surface make_surface(const Material& m, const TextureLibrary& library, std::span
   s.normal_texture = bind(m.normal_texture, image::MipUse::data, library);
   s.occlusion_texture = bind(m.occlusion_texture, image::MipUse::data, library);
   s.emissive_texture = bind(m.emissive_texture, image::MipUse::colour, library);
+  s.light_map = {bind(m.light_map.front, image::MipUse::data, library),
+                 bind(m.light_map.back, image::MipUse::data, library), m.light_map.intensity};
   for (const SurfaceLayer& layer : m.layers) s.layers.push_back(make_layer(layer, library, decals));
   return s;
 }

@@ -42,6 +42,12 @@ struct LayerBinding {
   BlendMode blend = BlendMode::over;
 };
 
+/// A LightMap with its pictures found.
+struct LightMapBinding {
+  TextureBinding front, back;
+  float intensity = 1;
+};
+
 /// A Material with its pictures found.
 struct Surface {
   std::array<float, 4> base_color = {1, 1, 1, 1};
@@ -52,6 +58,7 @@ struct Surface {
   TextureBinding base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
       emissive_texture;
   std::vector<LayerBinding> layers;
+  LightMapBinding light_map;
 };
 
 /// A light where it stands. Colour and intensity stay in the scene's Light.

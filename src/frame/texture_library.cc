@@ -25,6 +25,8 @@ std::set<Request> requests(const Scene& scene) {
     want(m.normal_texture, image::MipUse::data);
     want(m.occlusion_texture, image::MipUse::data);
     want(m.emissive_texture, image::MipUse::colour);
+    want(m.light_map.front, image::MipUse::data);
+    want(m.light_map.back, image::MipUse::data);
     for (const SurfaceLayer& layer : m.layers) {
       want(layer.texture, kLayerUse);
       if (layer.projector < 0) continue;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "base/flat_triangle.h"
 #include "base/refuse.h"
 
 namespace laterna {
@@ -20,22 +21,6 @@ struct Triangle {
 
 Triangle triangle_of(const frame::Frame& frame, TriangleId id) {
   return {{frame.corner_ws(id, 0), frame.corner_ws(id, 1), frame.corner_ws(id, 2)}};
-}
-
-// Twice the area of (a, b, p), positive where p lies to the left of a → b. Computed from the lesser end, so that two
-// triangles that share the edge agree about p to the last bit.
-double side_of(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p) {
-  const bool is_turned = b.x < a.x || (b.x == a.x && b.y < a.y);
-  if (is_turned) std::swap(a, b);
-  const double area = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-  return is_turned ? -area : area;
-}
-
-// A point on an edge belongs to one of the two triangles that share it: the one to whose left it runs downward, or level
-// to the left.
-bool holds(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
-  const double side = side_of(a, b, p);
-  return side > 0 || (side == 0 && (b.y < a.y || (b.y == a.y && b.x < a.x)));
 }
 
 // Lines parallel to one world axis, through the middles of squares of the other two.
@@ -55,9 +40,8 @@ class Lattice {
     const int v = (axis + 2) % 3;
     std::array<glm::dvec2, 3> flat;
     for (std::size_t k = 0; k < 3; ++k) flat[k] = {p[k][u], p[k][v]};
-    if (normal[axis] < 0) std::swap(flat[1], flat[2]);
-    const glm::dvec2 low = glm::min(flat[0], glm::min(flat[1], flat[2]));
-    const glm::dvec2 high = glm::max(flat[0], glm::max(flat[1], flat[2]));
+    const FlatTriangle flat_triangle(flat);
+    const glm::dvec2 low = flat_triangle.low(), high = flat_triangle.high();
     const double columns = std::floor(high.x / spacing_) - std::floor(low.x / spacing_) + 1;
     const double rows = std::floor(high.y / spacing_) - std::floor(low.y / spacing_) + 1;
     // Beyond, whole numbers of steps are no longer told apart, or most of the lattice would be looked at in vain.
@@ -65,8 +49,7 @@ class Lattice {
     for (double row = std::floor(low.y / spacing_); row * spacing_ <= high.y; ++row) {
       for (double column = std::floor(low.x / spacing_); column * spacing_ <= high.x; ++column) {
         const glm::dvec2 at((column + 0.5) * spacing_, (row + 0.5) * spacing_);
-        if (!holds(flat[0], flat[1], at) || !holds(flat[1], flat[2], at) || !holds(flat[2], flat[0], at))
-          continue;
+        if (!flat_triangle.holds(at)) continue;
         if (probes_.size() == kMaxProbes) return false;
         Probe probe;
         probe.normal_ws = normal / length;

@@ -13,7 +13,7 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 17> kRead = {
+constexpr std::array<std::string_view, 18> kRead = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, 17> kRead = {
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
+    "LATERNA_light_map",
     "LATERNA_lighting",
     "LATERNA_projector",
     // Safe to leave out: they hold alternatives or descriptions of what is read anyway.

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <optional>
 
+#include "scene/gltf_light_map.h"
 #include "scene/texture_transform.h"
 
 namespace laterna::gltf {
@@ -42,6 +43,10 @@ class MaterialWriter {
     set_texture(json, "emissiveTexture", material.emissive_texture);
     set_alpha(json, material);
     if (material.double_sided) json["doubleSided"] = true;
+    if (material.light_map.front.is_set() && !fault_) {
+      if (Result<void> written = write_light_map(material.light_map, pictures_, document_, json); !written)
+        fault_ = std::move(written.error());
+    }
     if (material.unlit) document_.extend(json, "KHR_materials_unlit", Json::object());
     if (fault_) return tl::unexpected(std::move(*fault_));
     if (json.is_null()) json = Json::object();

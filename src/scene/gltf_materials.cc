@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scene/gltf_extension.h"
+#include "scene/gltf_light_map.h"
 
 namespace laterna::gltf {
 namespace {
@@ -111,6 +112,7 @@ Material read_material(const JsonDocument& json, const JsonValue& value, Texture
   material.alpha_cutoff =
       factor(object, "alphaCutoff", 0.5, 2);  // above 1: nothing is left, as the standard says
   material.double_sided = object.boolean("doubleSided").value_or(false);
+  read_light_map(json, value, textures, faults, material.light_map);
   material.unlit = find_extension(value, "KHR_materials_unlit") != nullptr;
   return material;
 }

@@ -94,6 +94,9 @@ void MaterialCheck::check_material(const Material& material, const std::string& 
   check_texture(material.normal_texture, place + ".normal_texture");
   check_texture(material.occlusion_texture, place + ".occlusion_texture");
   check_texture(material.emissive_texture, place + ".emissive_texture");
+  check_texture(material.light_map.front, place + ".light_map.front");
+  check_texture(material.light_map.back, place + ".light_map.back");
+  check_number(place + ".light_map.intensity", material.light_map.intensity, 0, kMaxRadiance);
   check_layers(material, place + ".layers");
 }
 

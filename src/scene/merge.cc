@@ -98,7 +98,8 @@ MergedIndices SceneMerger::add(Scene scene, const std::string& file) {
   for (Material& material : scene.materials) {
     for (Texture* texture :
          {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-          &material.occlusion_texture, &material.emissive_texture}) {
+          &material.occlusion_texture, &material.emissive_texture, &material.light_map.front,
+          &material.light_map.back}) {
       remap_picture(texture->picture, picture);
     }
     for (SurfaceLayer& layer : material.layers) {

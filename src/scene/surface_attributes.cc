@@ -45,8 +45,9 @@ void repair_tangents(Primitive& primitive) {
 
 std::vector<const Texture*> textures_of(const Material& material) {
   std::vector<const Texture*> textures = {&material.base_color_texture, &material.metallic_roughness_texture,
-                                          &material.normal_texture, &material.occlusion_texture,
-                                          &material.emissive_texture};
+                                          &material.normal_texture,     &material.occlusion_texture,
+                                          &material.emissive_texture,   &material.light_map.front,
+                                          &material.light_map.back};
   for (const SurfaceLayer& layer : material.layers) textures.push_back(&layer.texture);
   return textures;
 }

@@ -6,6 +6,7 @@
 #include "shade/affine_slide.h"
 #include "shade/fragment_list.h"
 #include "shade/light_blender.h"
+#include "shade/light_map.h"
 #include "shade/sample_batch.h"
 #include "shade/scatter.h"
 #include "shade/surface_groups.h"
@@ -60,6 +61,7 @@ class TileShader::Worker {
         find_surface_points_(find_surface_points_for(job.instruction_set)),
         find_irradiance_(find_irradiance_for(job.instruction_set)),
         find_ambient_(find_ambient_for(job.instruction_set)),
+        add_light_map_(add_light_map_for(job.instruction_set)),
         reflect_(reflect_for(job.instruction_set)),
         reflect_environment_(reflect_environment_for(job.instruction_set)),
         show_environment_(show_environment_for(job.instruction_set)),
@@ -302,6 +304,8 @@ class TileShader::Worker {
       light_blender_->start(*samples_, targets.subspan(0, part.first_light == 0 ? 0 : part.first_light + 1));
     if (part.ambient) {
       find_ambient_(job_.reflection, surface, groups, *points_, *radiance_);
+      if (surface.light_map.front.chain != nullptr && !surface.unlit)
+        add_light_map_(source_, job_.reflection, surface.light_map, *samples_, *points_, *radiance_);
       if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
       if (!sums) scatter_radiance_(*samples_, *radiance_, targets[0]);
     }
@@ -559,6 +563,7 @@ class TileShader::Worker {
   FindSurfacePoints find_surface_points_;
   FindIrradiance find_irradiance_;
   FindAmbient find_ambient_;
+  AddLightMap add_light_map_;
   Reflect reflect_;
   ReflectEnvironment reflect_environment_;
   ShowEnvironment show_environment_;

@@ -43,6 +43,19 @@ class EmbreeScene {
     return ray.tfar == -std::numeric_limits<float>::infinity();
   }
 
+  [[nodiscard]] std::optional<RayScene::Hit> find_nearest(const RTCRay& ray, TriangleId own) const {
+    Context context;
+    rtcInitIntersectContext(&context.embree);
+    context.own = own;
+    context.panes = nullptr;
+    RTCRayHit query{};
+    query.ray = ray;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context.embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return RayScene::Hit{ids_[query.hit.primID], query.hit.u, query.hit.v, query.ray.tfar};
+  }
+
  private:
   void add_triangles(RTCDevice device) {
     const std::size_t vertex_count = frame_.x_ws.size();
@@ -71,6 +84,7 @@ class EmbreeScene {
     std::copy(indices.begin(), indices.end(), corners);
     rtcSetGeometryUserData(geometry, this);
     rtcSetGeometryOccludedFilterFunction(geometry, &filter_hits);
+    rtcSetGeometryIntersectFilterFunction(geometry, &filter_hits);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
@@ -129,6 +143,11 @@ bool RayScene::is_blocked(const glm::vec3& origin_ws, const glm::vec3& direction
                           TriangleId own) const {
   RTCRay ray = make_ray(origin_ws, direction_ws, near, far);
   return implementation_->opaque.stops(ray, own, nullptr);
+}
+
+std::optional<RayScene::Hit> RayScene::find_nearest(const glm::vec3& origin_ws, const glm::vec3& direction_ws,
+                                                    float near, float far, TriangleId own) const {
+  return implementation_->opaque.find_nearest(make_ray(origin_ws, direction_ws, near, far), own);
 }
 
 void RayScene::find_panes(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near, float far,

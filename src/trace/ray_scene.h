@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "frame/frame.h"
@@ -24,6 +25,15 @@ class RayScene {
   /// may come from several threads.
   [[nodiscard]] bool is_blocked(const glm::vec3& origin_ws, const glm::vec3& direction_ws, float near,
                                 float far, TriangleId own) const;
+
+  /// The nearest of what is_blocked() asks about. `b` and `c`: weights of the triangle's second and third corner.
+  struct Hit {
+    TriangleId id;
+    float b, c;
+    float distance;  ///< t
+  };
+  [[nodiscard]] std::optional<Hit> find_nearest(const glm::vec3& origin_ws, const glm::vec3& direction_ws,
+                                                float near, float far, TriangleId own) const;
 
   /// Where the ray meets blended surfaces that cast shadows, on the same terms: appended in any order. `b` and `c`: weights
   /// of the second and third corner.

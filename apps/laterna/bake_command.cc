@@ -1,0 +1,190 @@
+// laterna bake: light into pictures.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "laterna/bake.h"
+#include "laterna/write_scene.h"
+#include "outcome.h"
+#include "progress_line.h"
+#include "quake_demonstration.h"
+#include "scene_options.h"
+
+namespace laterna::app {
+namespace {
+
+struct Options {
+  SceneOptions scene;
+  BakeSettings bake;
+  std::string output, quake;
+  bool embeds = false, json = false;
+  RadiositySettings radiosity{.bounces = 0};
+};
+
+void print_report(const BakeReport& r, const std::string& output) {
+  std::string pages;
+  for (const BakeReport::Page& page : r.pages)
+    pages += fmt::format("{}{} x {}{}", pages.empty() ? "" : ", ", page.width, page.height,
+                         page.has_back ? " (two sides)" : "");
+  std::string lights;
+  for (const std::string& light : r.lights) lights += (lights.empty() ? "" : ", ") + light;
+  fmt::print("{}: {} surfaces in {} charts on {} light map{}: {}\n", output, r.surfaces, r.charts,
+             r.pages.size(), r.pages.size() == 1 ? "" : "s", pages);
+  fmt::print("  lights:  {}\n", lights.empty() ? "none" : lights);
+  fmt::print(
+      "  luxels:  {}, {} of them lit or padding, {:.1f} % of the area is surface, {:.1f} MB in memory\n",
+      r.luxels, r.lit_luxels, 100 * r.used, static_cast<double>(r.bytes) / 1e6);
+  fmt::print("  density: {:.4g} to {:.4g} luxels per metre\n", r.least_density, r.greatest_density);
+  if (r.bounces > 0) fmt::print("  bounces: {}\n", r.bounces);
+  fmt::print("  time:    {:.2f} s laying out, {:.2f} s light", r.layout_ms / 1000, r.light_ms / 1000);
+  if (r.resumed_strips > 0) fmt::print("; {} of {} parts were there already", r.resumed_strips, r.strips);
+  fmt::print("\n");
+}
+
+nlohmann::ordered_json report_json(const BakeReport& r) {
+  nlohmann::ordered_json json;
+  json["lights"] = r.lights;
+  json["pages"] = nlohmann::ordered_json::array();
+  for (const BakeReport::Page& page : r.pages)
+    json["pages"].push_back({{"width", page.width}, {"height", page.height}, {"has_back", page.has_back}});
+  json["surfaces"] = r.surfaces;
+  json["charts"] = r.charts;
+  json["luxels"] = r.luxels;
+  json["lit_luxels"] = r.lit_luxels;
+  json["used"] = r.used;
+  json["luxels_per_metre"] = {r.least_density, r.greatest_density};
+  json["bounces"] = r.bounces;
+  json["bytes"] = r.bytes;
+  json["parts"] = r.strips;
+  json["resumed_parts"] = r.resumed_strips;
+  json["layout_ms"] = r.layout_ms;
+  json["light_ms"] = r.light_ms;
+  return json;
+}
+
+int run_bake(Options options) {
+  if (const Result<void> possible = check_scene_output(options.output); !possible)
+    return report(possible.error());
+  if (!options.quake.empty()) {
+    if (options.json) return report(bad_option("--quake tells what it found in words: leave --json out"));
+    if (const Result<void> possible = check_quake_output(options.quake); !possible)
+      return report(possible.error());
+  }
+  Result<Scene> scene = options.scene.load();
+  if (!scene) return report(scene.error());
+  if (!scene->clips.empty()) {
+    if (std::vector<Diagnostic> faults = validate(*scene); !faults.empty())
+      return report(Error(Failure::bad_input, std::move(faults)));
+    pose_scene(*scene, options.scene.time);
+  }
+  Result<RendererOptions> machine = options.scene.renderer_options();
+  if (!machine) return report(machine.error());
+  options.bake.options = std::move(*machine);
+  options.bake.options.time = options.scene.time;
+  if (options.radiosity.bounces > 0) options.bake.interreflection = options.radiosity;
+  options.bake.work_file = options.output;
+  Result<BakedScene> baked = bake_light(std::move(*scene), options.bake, progress_line("baking"));
+  if (!baked) return report(baked.error());
+  report_warnings(baked->scene.warnings);
+  const Result<std::vector<Diagnostic>> written =
+      write_scene(baked->scene, options.output, SceneWriteOptions{.embeds = options.embeds});
+  if (!written) return report(written.error());
+  report_warnings(*written);
+  if (options.json) {
+    fmt::print("{}\n", report_json(baked->report).dump(2));
+  } else {
+    print_report(baked->report, options.output);
+  }
+  if (!options.quake.empty()) {
+    if (const Result<void> shown = demonstrate_quake(baked->scene, options.quake); !shown)
+      return report(shown.error());
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void declare_bake(CLI::App& app, Run& run) {
+  auto options = std::make_shared<Options>();
+  Options& o = *options;
+  BakeSettings& b = o.bake;
+  CLI::App* command = app.add_subcommand("bake", "light and shadows into light maps, once and for all views");
+  o.scene.declare_scene(*command);
+  command->add_option("-o,--output", o.output, "the scene with its light to write: .glb or .gltf")
+      ->required();
+  command->add_option("--density", b.density, "luxels per metre")
+      ->check(CLI::Range(kLeastLuxelDensity, kMostLuxelDensity))
+      ->capture_default_str();
+  command->add_option("--max-size", b.max_size, "largest side of a light map, in luxels")
+      ->check(CLI::Range(kLeastLightMapSide, kMostLightMapSide))
+      ->capture_default_str();
+  command->add_option("--padding", b.padding, "luxels between neighbours in a light map")
+      ->check(CLI::Range(1, kMostLuxelPadding))
+      ->capture_default_str();
+  command
+      ->add_option("--samples", b.samples, "N: each luxel is the mean of N x N places in it; 1: its middle")
+      ->check(CLI::Range(1, kMostLuxelSamples))
+      ->capture_default_str();
+  command
+      ->add_option("--accumulate", b.light_samples,
+                   "lamps that have a size: the mean over so many points of them")
+      ->check(CLI::Range(1, kMaxAccumulated))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--bounces", o.radiosity.bounces,
+          "how often light is reflected from surface to surface, by radiosity; 0: direct light alone")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command->add_option("--bounce-rays", o.radiosity.rays, "rays from each luxel that find what it is lit by")
+      ->check(CLI::Range(16, 65536))
+      ->capture_default_str();
+  command
+      ->add_option("--ambient-occlusion", b.occlusion_rays,
+                   "rays from each luxel that find how much ambient light arrives; 0: none")
+      ->check(CLI::Range(0, kMostOcclusionRays))
+      ->capture_default_str();
+  command->add_option("--occlusion-distance", b.occlusion_distance,
+                      "metres: what is farther away hides no ambient light (default: everything does)");
+  command->add_option("--lights", b.lights, "bake these lights only, by name; the others stay")
+      ->delimiter(',');
+  command->add_flag("--keep-lights", b.keep_lights, "leave the baked lights in the file: they shine twice");
+  command->add_flag("--unwrap", b.unwrap_all,
+                    "lay surfaces out anew even where their second texture coordinates serve");
+  command->add_flag("--resume", b.resume, "go on where a run of the same bake was stopped");
+  command->add_flag("--embed", o.embeds, "a .gltf of one piece");
+  command->add_option(
+      "--quake", o.quake,
+      "NAME.png: the first camera's view the way Quake showed it in 1996, NAME.texture.png, NAME.light.png "
+      "and NAME.product.png, and how often a walk finds its surfaces in the cache");
+  o.scene.declare_machine(*command);
+  command->add_flag("--json", o.json, "what was done, as JSON, to standard output");
+  command->footer(
+      "\nEvery surface gets a place in a light map, a picture of floats that holds how much light falls on "
+      "it (lux).\n"
+      "Surfaces whose second texture coordinates serve keep these; others are cut into charts and laid out. "
+      "The file\n"
+      "is shown by `laterna render` from any view, as fast as a scene without lights and shadows; highlights "
+      "are not\n"
+      "kept. Other programs see its materials without the light: the extension LATERNA_light_map says where "
+      "it is\n"
+      "(docs/LATERNA_light_map.md), and ambient occlusion is glTF's own. Lights that were baked are left "
+      "out.\n"
+      "Shadows are found by rays, whatever the lights' techniques. A luxel of 6 cm (--density 16) shows "
+      "shadows to\n"
+      "about that.\n"
+      "\nWhile it works, finished parts lie beside the output (room.glb.bake-0-3); after Ctrl-C, --resume "
+      "takes them.\n"
+      "\nExamples:\n"
+      "  laterna bake room.glb --rig stage.json -o baked.glb\n"
+      "  laterna bake room.glb --rig stage.json -o baked.glb --density 40 --samples 4\n"
+      "  laterna bake room.glb --rig stage.json -o baked.glb --bounces 100\n"
+      "  laterna bake room.glb -o baked.glb --ambient-occlusion 256 --occlusion-distance 1\n"
+      "  laterna render baked.glb -o picture.png\n");
+  command->callback([options, &run] { run = [options] { return run_bake(*options); }; });
+}
+
+}  // namespace laterna::app

@@ -1,0 +1,87 @@
+// Light baked into pictures: what falls on every surface, found once and kept in light maps (laterna bake). docs/bake.md
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "laterna/radiosity.h"
+#include "laterna/render.h"
+
+namespace laterna {
+
+/// Limits of BakeSettings.
+inline constexpr double kLeastLuxelDensity = 1e-3, kMostLuxelDensity = 1e5;
+inline constexpr int kLeastLightMapSide = 16, kMostLightMapSide = 16384;
+inline constexpr int kMostLuxelSamples = 16, kMostLuxelPadding = 64;
+inline constexpr int kMostOcclusionRays = 65536;
+/// Of all light maps of a scene together.
+inline constexpr std::size_t kMostLuxels = std::size_t{1} << 28;
+
+struct BakeSettings {
+  double density = 16;  ///< luxels per metre of the world
+  int max_size = 2048;  ///< largest side of a light map, in luxels
+  int padding =
+      2;  ///< luxels between neighbours in a light map, at least 1; they continue the nearest surface
+  /// Positions in each luxel, samples × samples, whose mean it is; those that lie beside the surface, or behind a wall as seen
+  /// from the luxel's middle, are left out. 1: its middle alone.
+  int samples = 2;
+  /// Lights that have a size, and lenses that are open: the mean over this many of their points. 1 … kMaxAccumulated.
+  int light_samples = 16;
+  /// How what surfaces reflect onto each other is found; unset: light maps hold the direct light alone.
+  std::optional<RadiositySettings> interreflection;
+  /// Rays to all sides, by the cosine of their angle, that find how much of the ambient light arrives; 0: none is looked for.
+  int occlusion_rays = 0;
+  double occlusion_distance =
+      std::numeric_limits<double>::infinity();  ///< metres: what is farther away hides nothing
+  bool unwrap_all = false;  ///< surfaces are laid out anew even where their second texture coordinates serve
+  std::vector<std::string> lights;  ///< to be baked, by name; empty: all that are on and add their light
+  bool keep_lights = false;         ///< those that were baked stay, and shine as well
+  RendererOptions options;          ///< threads, instruction set
+  /// Finished parts are kept in files beside this one as they come ("room.glb.bake-0-3"), each whole or absent, and are
+  /// removed at the end. Empty: nowhere.
+  std::filesystem::path work_file;
+  bool resume = false;  ///< parts of the same scene and settings that are there are taken as they are
+};
+
+struct BakeReport {
+  struct Page {
+    int width = 0, height = 0;
+    bool has_back = false;  ///< another picture for the backs of double-sided surfaces
+  };
+  std::vector<Page> pages;
+  std::size_t surfaces = 0;                        ///< instances of primitives that have got light maps
+  std::size_t charts = 0;                          ///< pieces that lie flat in them
+  std::size_t luxels = 0;                          ///< of all pages
+  std::size_t lit_luxels = 0;                      ///< of these, on a surface or within its padding
+  double used = 0;                                 ///< surfaces' share of the pages' area
+  double least_density = 0, greatest_density = 0;  ///< luxels per metre in any direction on any triangle
+  std::size_t bytes = 0;                           ///< of the light maps in memory, and of occlusion
+  std::size_t strips = 0,
+              resumed_strips = 0;  ///< parts in which the work was done, and those that were there already
+  double layout_ms = 0, light_ms = 0;
+  int bounces = 0;                  ///< of interreflection, that were worked out
+  std::vector<std::string> lights;  ///< that were baked
+};
+
+struct BakedScene {
+  /// Instances have become meshes of their own, whose second texture coordinates are their places in the light maps;
+  /// materials have light maps (LightMap), and occlusion textures where it was looked for; baked lights are gone. An instant:
+  /// without clips. scene.warnings has what could not be baked.
+  Scene scene;
+  BakeReport report;
+};
+
+/// Bakes the direct light of a scene, as it is posed now, with shadows by rays. What arrives at a luxel is what
+/// Renderer would find there with ShadowTechnique::raytraced, whatever the lights' own techniques, n·l of the surface's
+/// normals included (normal maps not); with
+/// BakeSettings::interreflection, what surfaces reflect onto each other as well. Surfaces that are not baked, with a warning: those that wear skins or morph, or use
+/// their second texture coordinates for something else; those without a light to reflect (unlit) need none.
+/// The result depends on neither threads nor instruction set. `progress` may stop it: Failure::cancelled.
+/// Errors: a faulty setting or scene, a light that is not there, more than kMostLuxels.
+Result<BakedScene> bake_light(Scene scene, const BakeSettings& settings, const Progress& progress = {});
+
+}  // namespace laterna

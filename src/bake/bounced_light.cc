@@ -1,0 +1,74 @@
+#include "bake/bounced_light.h"
+
+#include "bake/luxel_surface.h"
+
+namespace laterna::bake {
+namespace {
+
+// A surface is measured at 4 × 4 places of a luxel.
+constexpr int kAreaSamples = 4;
+
+// All luxels of all pages in one list, and where each is kept.
+class LuxelList {
+ public:
+  LuxelList(const frame::Frame& frame, double luxel_side) : frame_(frame), luxel_side_(luxel_side) {}
+
+  void add(const LitPage& page) {
+    const glm::ivec2 tiles = page.triangles->tiles();
+    std::vector<Receiver> receivers;
+    for (int y = 0; y < tiles.y; ++y) {
+      for (int x = 0; x < tiles.x; ++x) {
+        find_middles(frame_, *page.triangles, {x, y}, {kAreaSamples, luxel_side_}, receivers);
+        for (const Receiver& receiver : receivers) {
+          const auto column = static_cast<std::size_t>(x * kTileSide) + receiver.luxel % kTileSide;
+          const auto row = static_cast<std::size_t>(y * kTileSide) + receiver.luxel / kTileSide;
+          const std::size_t place = 3 * (row * static_cast<std::size_t>(page.front->width()) + column);
+          const MattSurface surface = surface_at(frame_, receiver, luxel_side_);
+          add_side(receiver, surface, 1, page.front->values<float>().subspan(place, 3));
+          if (page.back != nullptr)
+            add_side(receiver, surface, -1, page.back->values<float>().subspan(place, 3));
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::span<const Luxel> luxels() const { return luxels_; }
+  [[nodiscard]] LightSources sources() const { return {direct_, exitance_}; }
+  void add_to_pictures(const std::vector<glm::vec3>& irradiance) const {
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+      for (int c = 0; c < 3; ++c) places_[i][static_cast<std::size_t>(c)] += irradiance[i][c];
+    }
+  }
+
+ private:
+  void add_side(const Receiver& receiver, const MattSurface& surface, float side, std::span<float> place) {
+    luxels_.push_back(
+        {receiver.position_ws, side * receiver.normal_ws, receiver.area, receiver.id, surface.reflectance});
+    direct_.emplace_back(place[0], place[1], place[2]);
+    exitance_.push_back(surface.exitance);
+    places_.push_back(place);
+  }
+
+  const frame::Frame& frame_;
+  double luxel_side_;
+  std::vector<Luxel> luxels_;
+  std::vector<glm::vec3> direct_, exitance_;
+  std::vector<std::span<float>> places_;  // red, green and blue in a picture
+};
+
+}  // namespace
+
+Result<BouncedLight> add_bounced_light(const frame::Frame& frame, const trace::RayScene& rays,
+                                       std::span<const LitPage> pages, double luxel_side,
+                                       const RadiositySettings& settings, const TaskPool& pool,
+                                       const Progress& progress) {
+  LuxelList list(frame, luxel_side);
+  for (const LitPage& page : pages) list.add(page);
+  Result<Interreflection> found =
+      interreflect(frame, rays, list.luxels(), list.sources(), settings, pool, progress);
+  if (!found) return tl::unexpected(std::move(found.error()));
+  list.add_to_pictures(found->irradiance);
+  return BouncedLight{found->bounces, list.luxels().size()};
+}
+
+}  // namespace laterna::bake

@@ -1,0 +1,198 @@
+#include "bake/bright_luxels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "base/elementary.h"
+
+namespace laterna::bake {
+namespace {
+
+// What shines more than this times the mean is bright.
+constexpr double kEven = 2;
+// Luxels nearer than so many of their widths are.
+constexpr float kNear = 3;
+// Luxels are taken as one where they are seen under an angle whose sine is no more, and face nearly the same way: so
+// long is the mean of their normals.
+constexpr float kLargestSine = 0.1F;
+constexpr float kLeastAgreement = 0.97F;
+// Whether they are seen is asked by so many rays where they bring as much as a sky of what is hardly not bright would, and by
+// fewer where they bring less: penumbrae of lamps are smooth, and of a thousand faint luxels each needs one.
+constexpr float kRaysForEven = 16;
+constexpr float kMostRays = 64;
+
+float strongest(const glm::vec3& light) { return std::max(light.x, std::max(light.y, light.z)); }
+
+float sum_of(const glm::vec3& light) { return light.x + light.y + light.z; }
+
+// From a point to a disc of that area.
+float form_factor(float area, float cosine_at_receiver, float cosine_at_emitter, float squared_distance) {
+  const float both = std::max(0.0F, cosine_at_receiver) * std::max(0.0F, cosine_at_emitter);
+  return area * both / (static_cast<float>(kPi) * squared_distance + area);
+}
+
+// Whether nothing of a box is above the plane through `point`.
+bool is_below(const glm::vec3& low, const glm::vec3& high, const glm::vec3& point, const glm::vec3& normal) {
+  const glm::vec3 farthest = glm::mix(low, high, glm::vec3(glm::greaterThan(normal, glm::vec3(0))));
+  return glm::dot(farthest - point, normal) <= 0;
+}
+
+}  // namespace
+
+struct BrightLuxels::Sum {
+  std::uint32_t receiver;
+  const LuxelRays& rays;
+  LuxelRays::Scratch& scratch;
+  glm::vec3 irradiance{0};
+};
+
+BrightLuxels::BrightLuxels(const LuxelTree& tree, std::span<const glm::vec3> exitance)
+    : tree_(tree), exitance_(exitance), shine_(tree.nodes().size()) {
+  double area = 0;
+  double flux = 0;
+  for (std::size_t place = 0; place < exitance.size(); ++place) {
+    const double own = tree.luxels()[place].area;
+    area += own;
+    flux += own * static_cast<double>(strongest(exitance[place]));
+  }
+  if (!(flux > 0)) return;
+  most_even_ = static_cast<float>(kEven * flux / area);
+  for (auto node = static_cast<std::uint32_t>(shine_.size()); node-- > 0;) shine_[node] = shine_below(node);
+}
+
+bool BrightLuxels::is_bright(std::uint32_t place) const { return strongest(exitance_[place]) > most_even_; }
+
+bool BrightLuxels::is_near(std::uint32_t receiver, std::uint32_t place) const {
+  const Luxel& luxel = tree_.luxels()[place];
+  const glm::vec3 way = luxel.position_ws - tree_.luxels()[receiver].position_ws;
+  return glm::dot(way, way) < kNear * kNear * luxel.area;
+}
+
+void BrightLuxels::Shine::add(const Shine& other) {
+  if (other.strength == 0) return;
+  if (strength == 0) {
+    *this = other;
+    return;
+  }
+  flux += other.flux;
+  strength += other.strength;
+  const float part = other.strength / strength;
+  centre = glm::mix(centre, other.centre, part);
+  axis = glm::mix(axis, other.axis, part);
+  low_ws = glm::min(low_ws, other.low_ws);
+  high_ws = glm::max(high_ws, other.high_ws);
+  area += other.area;
+  largest = std::max(largest, other.largest);
+}
+
+// The box holds the luxels' centres; half a square's diagonal is added.
+void BrightLuxels::Shine::find_radius() {
+  radius = glm::length(glm::max(centre - low_ws, high_ws - centre)) + std::sqrt(0.5F * largest);
+}
+
+BrightLuxels::Shine BrightLuxels::shine_of(std::uint32_t place) const {
+  if (!is_bright(place)) return {};
+  const Luxel& luxel = tree_.luxels()[place];
+  const glm::vec3 flux = exitance_[place] * luxel.area;
+  return {flux,         luxel.position_ws, luxel.normal_ws, luxel.position_ws, luxel.position_ws,
+          sum_of(flux), luxel.area,        luxel.area};
+}
+
+// Children have been done before.
+BrightLuxels::Shine BrightLuxels::shine_below(std::uint32_t node) const {
+  const LuxelNode& box = tree_.nodes()[node];
+  Shine all;
+  if (box.is_leaf()) {
+    for (std::uint32_t place = box.first; place < box.last; ++place) all.add(shine_of(place));
+  } else {
+    all.add(shine_[node + 1]);
+    all.add(shine_[box.second]);
+  }
+  all.find_radius();
+  return all;
+}
+
+bool BrightLuxels::can_be_one(const Sum& sum, std::uint32_t node) const {
+  const Shine& shine = shine_[node];
+  if (glm::length(shine.axis) < kLeastAgreement) return false;
+  const glm::vec3 way = shine.centre - tree_.luxels()[sum.receiver].position_ws;
+  return shine.radius * shine.radius <= kLargestSine * kLargestSine * glm::dot(way, way);
+}
+
+// One of a node's luxels, by what they give: for equally spread numbers each as often as it gives light.
+std::uint32_t BrightLuxels::pick(std::uint32_t node, double number) const {
+  while (!tree_.nodes()[node].is_leaf()) {
+    const double one = static_cast<double>(shine_[node + 1].strength);
+    const double other = static_cast<double>(shine_[tree_.nodes()[node].second].strength);
+    const double part = one / (one + other);
+    const bool is_one = number < part;
+    number = is_one ? number / part : (number - part) / (1 - part);
+    node = is_one ? node + 1 : tree_.nodes()[node].second;
+  }
+  const LuxelNode& leaf = tree_.nodes()[node];
+  double left = number * static_cast<double>(shine_[node].strength);
+  std::uint32_t picked = leaf.first;
+  for (std::uint32_t place = leaf.first; place < leaf.last; ++place) {
+    if (!is_bright(place)) continue;
+    picked = place;
+    left -= static_cast<double>(sum_of(exitance_[place]) * tree_.luxels()[place].area);
+    if (left < 0) break;
+  }
+  return picked;
+}
+
+// `seen`: the place of one of the luxels, for a number in [0, 1).
+template <class Seen>
+void BrightLuxels::add(Sum& sum, const Shine& shine, Seen seen) const {
+  const Luxel& receiver = tree_.luxels()[sum.receiver];
+  const glm::vec3 way = shine.centre - receiver.position_ws;
+  const float squared = glm::dot(way, way);
+  const glm::vec3 direction = way / std::sqrt(squared);
+  const float factor = form_factor(shine.area, glm::dot(receiver.normal_ws, direction),
+                                   -glm::dot(shine.axis, direction), squared);
+  if (factor == 0) return;
+  const glm::vec3 unshadowed = shine.flux * (factor / shine.area);
+  const float wanted = std::ceil(strongest(unshadowed) / most_even_ * kRaysForEven);
+  const int rays = static_cast<int>(std::clamp(wanted, 1.0F, kMostRays));
+  glm::vec3 arrived(0);
+  for (int ray = 0; ray < rays; ++ray) {
+    const std::uint32_t place = seen((ray + shift_of(sum.receiver).u) / rays);
+    arrived += sum.rays.transmittance(sum.receiver, place, sum.scratch);
+  }
+  sum.irradiance += unshadowed * (arrived / static_cast<float>(rays));
+}
+
+glm::vec3 BrightLuxels::irradiance_at(std::uint32_t receiver, const LuxelRays& rays,
+                                      LuxelRays::Scratch& scratch) const {
+  Sum sum = {receiver, rays, scratch};
+  if (most_even_ == 0) return sum.irradiance;
+  const Luxel& luxel = tree_.luxels()[receiver];
+  std::array<std::uint32_t, 64> open;  // a balanced tree of 2³¹ luxels is 29 deep
+  std::size_t count = 0;
+  open[count++] = 0;
+  while (count > 0) {
+    const std::uint32_t index = open[--count];
+    const LuxelNode& node = tree_.nodes()[index];
+    const Shine& shine = shine_[index];
+    if (shine.strength == 0 || is_below(shine.low_ws, shine.high_ws, luxel.position_ws, luxel.normal_ws))
+      continue;
+    if (can_be_one(sum, index)) {
+      add(sum, shine, [&](double number) { return pick(index, number); });
+    } else if (node.is_leaf()) {
+      for (std::uint32_t place = node.first; place < node.last; ++place) {
+        if (is_bright(place) && !is_near(receiver, place))
+          add(sum, shine_of(place), [&](double) { return place; });
+      }
+    } else {
+      open[count++] = node.second;
+      open[count++] = index + 1;
+    }
+  }
+  return sum.irradiance;
+}
+
+}  // namespace laterna::bake

@@ -1,0 +1,420 @@
+#include "bake/light_map_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "bake/atlas_packer.h"
+#include "bake/charts.h"
+#include "bake/own_meshes.h"
+#include "base/refuse.h"
+#include "scene/surface_attributes.h"
+
+namespace laterna::bake {
+namespace {
+
+// Squares per luxel's side in which charts are looked at for overlap.
+constexpr double kOverlapSquares = 4;
+
+struct SurfaceOfMesh {
+  std::size_t mesh, primitive;
+};
+
+// What is packed as one: a chart of a primitive, or all that shares a file's own second texture coordinates.
+struct Piece {
+  std::vector<SurfaceOfMesh> surfaces;
+  glm::ivec2 luxels{1};
+  Chart chart;              // empty: the unit square of the file's own coordinates
+  glm::dvec2 from_flat{1};  // luxels per unit of the chart's plane
+  bool is_double_sided = false;
+};
+
+std::uint32_t vertex_of(const Primitive& p, std::size_t corner) {
+  return p.indices.empty() ? static_cast<std::uint32_t>(corner) : p.indices[corner];
+}
+std::size_t corner_count(const Primitive& p) {
+  return p.indices.empty() ? p.positions.size() : p.indices.size();
+}
+
+std::vector<glm::dvec3> corners_of(const Primitive& primitive, const glm::dmat4& world_from_mesh) {
+  std::vector<glm::dvec3> corners;
+  for (std::size_t corner = 0; corner < corner_count(primitive); ++corner) {
+    const glm::dvec3 position(primitive.positions[vertex_of(primitive, corner)]);
+    corners.emplace_back(world_from_mesh * glm::dvec4(position, 1));
+  }
+  return corners;
+}
+
+double area_of(std::span<const glm::dvec3> corners) {
+  double sum = 0;
+  for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
+    const glm::dvec3 n = glm::cross(corners[t + 1] - corners[t], corners[t + 2] - corners[t]);
+    sum += std::sqrt(glm::dot(n, n)) / 2;
+  }
+  return sum;
+}
+
+double area_of(std::span<const glm::dvec2> corners) {
+  double sum = 0;
+  for (std::size_t t = 0; t + 2 < corners.size(); t += 3) {
+    const glm::dvec2 u = corners[t + 1] - corners[t], v = corners[t + 2] - corners[t];
+    sum += std::abs(u.x * v.y - u.y * v.x) / 2;
+  }
+  return sum;
+}
+
+class Layout {
+ public:
+  Layout(Scene& scene, const BakeSettings& settings) : scene_(scene), settings_(settings) {}
+
+  Result<LightMapLayout> make() {
+    for (const PlacedMesh& placed : take_apart(scene_)) {
+      if (!placed.is_rigid) {
+        warn(placed.name, "wears a skin or morphs: it is not baked");
+        continue;
+      }
+      if (Result<void> added = add_mesh(placed); !added) return tl::unexpected(std::move(added.error()));
+    }
+    layout_.charts = pieces_.size();
+    if (Result<void> packed = pack(); !packed) return tl::unexpected(std::move(packed.error()));
+    find_materials();
+    return std::move(layout_);
+  }
+
+ private:
+  void warn(const std::string& object, std::string message) {
+    scene_.warnings.push_back({{}, fmt::format("object \"{}\"", object), std::move(message)});
+  }
+  [[nodiscard]] Primitive& at(const SurfaceOfMesh& s) {
+    return scene_.meshes[s.mesh].primitives[s.primitive];
+  }
+  [[nodiscard]] const Material& material_of(const Primitive& primitive) const {
+    static const Material usual;
+    return primitive.material < 0 ? usual : scene_.materials[static_cast<std::size_t>(primitive.material)];
+  }
+
+  // -------------------------------------------------------------------------------------------- pieces
+
+  Result<void> add_mesh(const PlacedMesh& placed) {
+    std::vector<SurfaceOfMesh> surfaces;
+    for (std::size_t i = 0; i < scene_.meshes[placed.mesh].primitives.size(); ++i) {
+      const Primitive& primitive = scene_.meshes[placed.mesh].primitives[i];
+      const Material& material = material_of(primitive);
+      if (corner_count(primitive) == 0 || material.unlit) continue;
+      const std::vector<const Texture*> textures = textures_of(material);
+      if (std::ranges::any_of(textures, [](auto t) { return t->is_set() && t->uv_set == 1; })) {
+        warn(placed.name, "its textures use the second texture coordinates: it is not baked");
+        continue;
+      }
+      surfaces.push_back({placed.mesh, i});
+    }
+    layout_.surfaces += surfaces.size();
+    if (!settings_.unwrap_all && add_own_coordinates(placed, surfaces)) return {};
+    for (const SurfaceOfMesh& surface : surfaces) {
+      if (Result<void> added = add_charts(placed, surface); !added) return added;
+    }
+    return {};
+  }
+
+  // Whether the second texture coordinates that a mesh has serve as they are.
+  bool add_own_coordinates(const PlacedMesh& placed, const std::vector<SurfaceOfMesh>& surfaces) {
+    if (surfaces.empty()) return false;
+    std::vector<glm::dvec2> flat;
+    double area = 0;
+    Piece piece;
+    for (const SurfaceOfMesh& surface : surfaces) {
+      const Primitive& primitive = at(surface);
+      if (primitive.uv[1].empty()) return false;
+      for (std::size_t corner = 0; corner < corner_count(primitive); ++corner)
+        flat.emplace_back(primitive.uv[1][vertex_of(primitive, corner)]);
+      area += area_of(corners_of(primitive, placed.world_from_mesh));
+      piece.is_double_sided = piece.is_double_sided || material_of(primitive).double_sided;
+    }
+    const bool is_within = std::ranges::all_of(
+        flat, [](const glm::dvec2& p) { return p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1; });
+    const double flat_area = area_of(flat);
+    if (!(flat_area > 0) || !is_within) {
+      warn(placed.name,
+           "its second texture coordinates leave the unit square or span no area: laid out anew");
+      return false;
+    }
+    const double side = std::max(1.0, settings_.density * std::sqrt(area / flat_area));
+    if (side > settings_.max_size - 2) {
+      warn(placed.name, "its second texture coordinates would take more than a page: laid out anew");
+      return false;
+    }
+    if (overlap(flat, 1 / (kOverlapSquares * side))) {
+      warn(placed.name, "its second texture coordinates overlap: laid out anew");
+      return false;
+    }
+    piece.surfaces = surfaces;
+    piece.from_flat = glm::dvec2(side);
+    // Half a luxel beyond each side is read at the rim.
+    piece.luxels = glm::ivec2(static_cast<int>(std::ceil(side)) + 2);
+    pieces_.push_back(std::move(piece));
+    return true;
+  }
+
+  Result<void> add_charts(const PlacedMesh& placed, const SurfaceOfMesh& surface) {
+    const Primitive& primitive = at(surface);
+    const double density = settings_.density;
+    // Turned about, a rectangle is at most √2 longer, and seen along another direction at most 1 / cos 30°.
+    const double most = (settings_.max_size - 2) / (density * 1.7);
+    for (Chart& chart : cut_into_charts(corners_of(primitive, placed.world_from_mesh),
+                                        1 / (kOverlapSquares * density), most)) {
+      Piece piece;
+      piece.surfaces = {surface};
+      piece.is_double_sided = material_of(primitive).double_sided;
+      for (int axis = 0; axis < 2; ++axis) {
+        // The rim lies on the middles of luxels, so that all that is read at it belongs to the chart: a whole number of steps.
+        const double wanted = chart.size[axis] * density;
+        const double steps = std::max(1.0, std::ceil(wanted - 1e-6));
+        if (!(steps < settings_.max_size))
+          return refuse(
+              fmt::format("object \"{}\": a triangle of {:.6g} m takes more than a light map of {} luxels: "
+                          "at most {:.6g} luxels per "
+                          "metre fit, asked for were {:.6g}",
+                          placed.name, chart.size[axis], settings_.max_size,
+                          (settings_.max_size - 1) / chart.size[axis], density));
+        piece.from_flat[axis] = wanted >= 1 ? density * steps / wanted : density;
+        piece.luxels[axis] = static_cast<int>(steps) + 1;
+      }
+      piece.chart = std::move(chart);
+      pieces_.push_back(std::move(piece));
+    }
+    return {};
+  }
+
+  // -------------------------------------------------------------------------------------------- places
+
+  // Double-sided surfaces have pages of their own: only these need pictures of backs.
+  Result<void> pack() {
+    std::uint64_t luxels = 0;
+    for (const Piece& piece : pieces_)
+      luxels += static_cast<std::uint64_t>(piece.luxels.x) * static_cast<std::uint64_t>(piece.luxels.y);
+    if (luxels > kMostLuxels) return refuse_luxels(luxels);
+    world_from_mesh_ = world_matrices();
+    for (const bool is_double_sided : {false, true}) {
+      std::vector<std::size_t> chosen;
+      std::vector<glm::ivec2> sizes;
+      for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        if (pieces_[i].is_double_sided != is_double_sided) continue;
+        chosen.push_back(i);
+        sizes.push_back(pieces_[i].luxels);
+      }
+      if (sizes.empty()) continue;
+      const PackedRectangles packed = pack_rectangles(sizes, settings_.padding, settings_.max_size);
+      const std::size_t first = layout_.pages.size();
+      for (const glm::ivec2& size : packed.pages) layout_.pages.push_back({size, is_double_sided});
+      for (std::size_t i = 0; i < chosen.size(); ++i)
+        set_coordinates(pieces_[chosen[i]], first + packed.places[i].page, packed.places[i].corner);
+    }
+    std::uint64_t total = 0;
+    for (const LightMapPage& page : layout_.pages)
+      total += static_cast<std::uint64_t>(page.size.x) * static_cast<std::uint64_t>(page.size.y);
+    if (total > kMostLuxels) return refuse_luxels(total);
+    layout_.used = total == 0 ? 0 : used_luxels_ / static_cast<double>(total);
+    split_vertices();
+    return {};
+  }
+
+  static tl::unexpected<Error> refuse_luxels(std::uint64_t luxels) {
+    return refuse(fmt::format("the light maps would hold {} luxels, more than {}: bake at a lower density",
+                              luxels, kMostLuxels));
+  }
+
+  [[nodiscard]] std::vector<glm::dmat4> world_matrices() const {
+    const std::vector<glm::dmat4> world_from_node = world_from_nodes(scene_);
+    std::vector<glm::dmat4> matrices(scene_.meshes.size(), glm::dmat4(1));
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+      if (scene_.nodes[i].mesh >= 0)
+        matrices[static_cast<std::size_t>(scene_.nodes[i].mesh)] = world_from_node[i];
+    }
+    return matrices;
+  }
+
+  // The second texture coordinates of a primitive's corners, and the page of each.
+  struct Coordinates {
+    std::vector<glm::vec2> uv;
+    std::vector<std::uint32_t> piece;  // what was laid out as one
+    std::size_t page = 0;
+  };
+
+  void set_coordinates(const Piece& piece, std::size_t page, const glm::ivec2& corner) {
+    const glm::dvec2 size(layout_.pages[page].size);
+    ++piece_number_;
+    for (const SurfaceOfMesh& surface : piece.surfaces) {
+      const Primitive& primitive = at(surface);
+      // A primitive whose charts lie on several pages becomes several.
+      Coordinates& coordinates = coordinates_[{surface.mesh, surface.primitive, page}];
+      coordinates.page = page;
+      coordinates.uv.resize(corner_count(primitive));
+      coordinates.piece.resize(corner_count(primitive), 0);
+      const glm::dmat4& world_from_mesh = world_from_mesh_[surface.mesh];
+      const auto set = [&](std::size_t c) {
+        const std::uint32_t vertex = vertex_of(primitive, c);
+        glm::dvec2 luxel;
+        if (piece.chart.triangles.empty()) {
+          luxel = glm::dvec2(primitive.uv[1][vertex]) * piece.from_flat + 1.0;
+        } else {
+          const glm::dvec3 point(world_from_mesh * glm::dvec4(glm::dvec3(primitive.positions[vertex]), 1));
+          luxel = (piece.chart.flat(point) - piece.chart.low) * piece.from_flat + 0.5;
+        }
+        coordinates.uv[c] = glm::vec2((luxel + glm::dvec2(corner)) / size);
+        coordinates.piece[c] = piece_number_;
+      };
+      const auto set_triangle = [&](std::size_t t) {
+        for (std::size_t k = 0; k < 3; ++k) set(3 * t + k);
+        measure(primitive, world_from_mesh, coordinates, t, size);
+      };
+      if (piece.chart.triangles.empty()) {
+        for (std::size_t t = 0; t < corner_count(primitive) / 3; ++t) set_triangle(t);
+      } else {
+        for (const std::uint32_t t : piece.chart.triangles) set_triangle(t);
+      }
+    }
+  }
+
+  // Luxels per metre are the singular values of the map from a triangle's plane to the page.
+  void measure(const Primitive& primitive, const glm::dmat4& world_from_mesh, const Coordinates& coordinates,
+               std::size_t t, const glm::dvec2& size) {
+    glm::dvec3 p[3];
+    glm::dvec2 q[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3 position(primitive.positions[vertex_of(primitive, 3 * t + k)]);
+      p[k] = glm::dvec3(world_from_mesh * glm::dvec4(position, 1));
+      q[k] = glm::dvec2(coordinates.uv[3 * t + k]) * size;
+    }
+    const glm::dvec2 qu = q[1] - q[0], qv = q[2] - q[0];
+    used_luxels_ += std::abs(qu.x * qv.y - qu.y * qv.x) / 2;
+    const glm::dvec3 u = p[1] - p[0], v = p[2] - p[0];
+    const double uu = glm::dot(u, u);
+    if (!(uu > 0)) return;
+    // In axes along u and square to it, u = (a, 0) and v = (b, c).
+    const double a = std::sqrt(uu), b = glm::dot(u, v) / a;
+    const double c = std::sqrt(std::max(glm::dot(v, v) - b * b, 0.0));
+    if (!(c > 1e-9 * a)) return;
+    const glm::dvec2 x = qu / a, y = (qv - x * b) / c;
+    const double half = (glm::dot(x, x) + glm::dot(y, y)) / 2;
+    const double other = (glm::dot(x, x) - glm::dot(y, y)) / 2, mixed = glm::dot(x, y);
+    const double spread = std::sqrt(other * other + mixed * mixed);
+    const double least = std::sqrt(std::max(half - spread, 0.0)), greatest = std::sqrt(half + spread);
+    layout_.least_density = layout_.greatest_density == 0 ? least : std::min(layout_.least_density, least);
+    layout_.greatest_density = std::max(layout_.greatest_density, greatest);
+  }
+
+  // -------------------------------------------------------------------------------------------- vertices
+
+  // Vertices at which charts meet become several; triangles without an area are left out.
+  void split_vertices() {
+    std::map<std::size_t, std::vector<Primitive>> primitives_of_mesh;
+    for (const auto& [place, coordinates] : coordinates_) {
+      const auto& [mesh, primitive, page] = place;
+      std::vector<Primitive>& made = primitives_of_mesh[mesh];
+      made.push_back(with_coordinates(scene_.meshes[mesh].primitives[primitive], coordinates));
+      page_of_primitive_[{mesh, made.size() - 1}] = page;
+    }
+    for (auto& [mesh, made] : primitives_of_mesh) {
+      std::vector<Primitive>& primitives = scene_.meshes[mesh].primitives;
+      for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const auto first = coordinates_.lower_bound({mesh, i, 0});
+        const bool is_baked = first != coordinates_.end() && std::get<0>(first->first) == mesh &&
+                              std::get<1>(first->first) == i;
+        if (!is_baked) made.push_back(std::move(primitives[i]));
+      }
+      primitives = std::move(made);
+    }
+  }
+
+  static Primitive with_coordinates(const Primitive& from, const Coordinates& coordinates) {
+    std::vector<std::uint32_t> source;  // the vertex behind each new one
+    std::vector<glm::vec2> uv;
+    std::vector<std::uint32_t> indices;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
+    for (std::size_t c = 0; c < coordinates.piece.size(); ++c) {
+      if (coordinates.piece[c] == 0) continue;
+      const std::uint32_t vertex = vertex_of(from, c);
+      const auto [entry, is_new] =
+          known.try_emplace({vertex, coordinates.piece[c]}, static_cast<std::uint32_t>(source.size()));
+      if (is_new) {
+        source.push_back(vertex);
+        uv.push_back(coordinates.uv[c]);
+      }
+      indices.push_back(entry->second);
+    }
+    const auto pick = [&](const auto& values) {
+      std::decay_t<decltype(values)> picked;
+      if (values.empty()) return picked;
+      for (const std::uint32_t vertex : source) picked.push_back(values[vertex]);
+      return picked;
+    };
+    Primitive made;
+    made.positions = pick(from.positions);
+    made.normals = pick(from.normals);
+    made.tangents = pick(from.tangents);
+    made.uv = {pick(from.uv[0]), std::move(uv)};
+    made.colors = pick(from.colors);
+    made.indices = std::move(indices);
+    made.material = from.material;
+    return made;
+  }
+
+  // -------------------------------------------------------------------------------------------- materials
+
+  // A material whose surfaces lie on several pages becomes several of the same name.
+  void find_materials() {
+    layout_.page_of_material.assign(scene_.materials.size(), -1);
+    std::vector<bool> is_used_unbaked(scene_.materials.size(), false);
+    for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
+      for (std::size_t i = 0; i < scene_.meshes[m].primitives.size(); ++i) {
+        const int material = scene_.meshes[m].primitives[i].material;
+        if (material >= 0 && !page_of_primitive_.contains({m, i}))
+          is_used_unbaked[static_cast<std::size_t>(material)] = true;
+      }
+    }
+    std::map<std::pair<int, std::size_t>, int> material_of_page;
+    for (const auto& [place, page] : page_of_primitive_) {
+      Primitive& primitive = at({place.first, place.second});
+      const auto [entry, is_new] =
+          material_of_page.try_emplace({primitive.material, page}, primitive.material);
+      if (is_new) {
+        const int old = primitive.material;
+        const auto index = static_cast<std::size_t>(std::max(old, 0));
+        if (old < 0 || is_used_unbaked[index] || layout_.page_of_material[index] >= 0) {
+          entry->second = static_cast<int>(scene_.materials.size());
+          Material copy = material_of(primitive);
+          scene_.materials.push_back(std::move(copy));
+          layout_.page_of_material.push_back(-1);
+        }
+        layout_.page_of_material[static_cast<std::size_t>(entry->second)] = static_cast<int>(page);
+      }
+      primitive.material = entry->second;
+    }
+  }
+
+  Scene& scene_;
+  const BakeSettings& settings_;
+  LightMapLayout layout_;
+  std::vector<Piece> pieces_;
+  std::uint32_t piece_number_ = 0;
+  double used_luxels_ = 0;
+  std::vector<glm::dmat4> world_from_mesh_;  // by mesh
+  std::map<std::tuple<std::size_t, std::size_t, std::size_t>, Coordinates>
+      coordinates_;  // mesh, primitive, page
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t>
+      page_of_primitive_;  // mesh and primitive, as made
+};
+
+}  // namespace
+
+Result<LightMapLayout> lay_out(Scene& scene, const BakeSettings& settings) {
+  return Layout(scene, settings).make();
+}
+
+}  // namespace laterna::bake
