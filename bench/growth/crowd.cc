@@ -5,8 +5,10 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "reference/shapes.h"
 #include "scene/key_frames.h"
@@ -14,8 +16,10 @@
 namespace laterna::growth {
 namespace {
 
-constexpr const char* kModels[] = {"/usr/share/assimp/models/MD2/sydney.md2",
-                                   "/usr/share/assimp/models/MD2/faerie.md2"};
+// Models and their skins, which the second does not name.
+constexpr std::pair<const char*, const char*> kModels[] = {
+    {"/usr/share/assimp/models/MD2/sydney.md2", "/usr/share/assimp/models/MD2/sydney.bmp"},
+    {"/usr/share/assimp/models/MD2/faerie.md2", "/usr/share/assimp/models/MD2/faerie2.bmp"}};
 constexpr double kMetresPerUnit = 1.8 / 56;  // Quake's men are 56 units tall
 constexpr double kSpacing = 1.5;             // metres from model to model
 constexpr double kGoldenRatio = 0.6180339887498949;
@@ -108,12 +112,17 @@ Scene make_reed() {
 
 Result<std::vector<Scene>> load_models() {
   std::vector<Scene> models;
-  for (const char* file : kModels) {
+  for (const auto& [file, skin] : kModels) {
     if (!std::filesystem::exists(file)) continue;
     LoadOptions options;
     options.metres_per_unit = kMetresPerUnit;
     Result<Scene> model = load_scene({file}, options);
     if (!model) return tl::unexpected(model.error());
+    if (!model->materials.front().base_color_texture.is_set()) {
+      Picture& picture = model->pictures.emplace_back();
+      picture.name = picture.file = skin;
+      model->materials.front().base_color_texture.picture = static_cast<int>(model->pictures.size()) - 1;
+    }
     models.push_back(std::move(*model));
   }
   if (models.empty()) models.push_back(make_reed());
@@ -199,9 +208,9 @@ void add_wandering_spot(Scene& scene, const Crowd& crowd, int number) {
   light.name = "spot " + std::to_string(number);
   light.type = LightType::spot;
   light.color = kColours.at(static_cast<std::size_t>(number) % kColours.size());
-  light.inner_cone = Angle::degrees(24);
-  light.outer_cone = Angle::degrees(30);
-  light.intensity = 12 * side * side / std::sqrt(crowd.lights);
+  light.inner_cone = Angle::degrees(26);
+  light.outer_cone = Angle::degrees(34);
+  light.intensity = 5 * side * side / std::sqrt(crowd.lights);
   light.shadow.resolution = crowd.map_size;
   KeyFrames keys{KeyInterpolation::linear, {}, {}};
   for (int k = 0; k <= kKeys; ++k) {
@@ -229,7 +238,7 @@ Result<Scene> make_crowd(const Crowd& crowd) {
   Result<std::vector<Scene>> models = load_models();
   if (!models) return tl::unexpected(models.error());
   Scene scene;
-  reference::add_object(scene, "ground", reference::floor(static_cast<float>(1.6 * half_side(crowd))),
+  reference::add_object(scene, "ground", reference::floor(static_cast<float>(6 * half_side(crowd))),
                         {0.6F, 0.6F, 0.55F});
   std::vector<Kind> kinds;
   for (Scene& model : *models) kinds.emplace_back(std::move(model), scene);
@@ -246,7 +255,7 @@ Result<Scene> make_crowd(const Crowd& crowd) {
 
 View look_at_crowd(const Crowd& crowd, double aspect) {
   const double side = half_side(crowd);
-  return reference::look({0, 1.25 * side + 1, 2.1 * side + 1}, {0, 0.3, 0}, 36, aspect);
+  return reference::look({0, 1.15 * side + 1, 1.9 * side + 0.5}, {0, 0, 0.1 * side}, 36, aspect);
 }
 
 }  // namespace laterna::growth

@@ -11,19 +11,29 @@
 namespace laterna::app {
 namespace {
 
-constexpr std::array<const char*, 2> kFiles = {"/usr/share/assimp/models/MD2/sydney.md2",
-                                               "/usr/share/assimp/models/MD2/faerie.md2"};
+struct Files {
+  const char *model, *skin;  // the second model does not name its skin
+};
+constexpr std::array<Files, 2> kFiles = {
+    {{"/usr/share/assimp/models/MD2/sydney.md2", "/usr/share/assimp/models/MD2/sydney.bmp"},
+     {"/usr/share/assimp/models/MD2/faerie.md2", "/usr/share/assimp/models/MD2/faerie2.bmp"}}};
 constexpr double kMetresPerUnit = 1.75 / 56;  // a player of the game is 56 units tall
 
 /// As it is at that time of its running, without clips.
 std::optional<Scene> load_running(int model, double time) {
-  const std::filesystem::path file = kFiles.at(static_cast<std::size_t>(model) % kFiles.size());
+  const auto& [file, skin] = kFiles.at(static_cast<std::size_t>(model) % kFiles.size());
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return std::nullopt;
   LoadOptions options;
   options.metres_per_unit = kMetresPerUnit;
   Result<Scene> scene = load_scene({file}, options);
   if (!scene || !choose_clip(*scene, "run")) return std::nullopt;
+  Texture& texture = scene->materials.front().base_color_texture;
+  if (!texture.is_set()) {
+    Picture& picture = scene->pictures.emplace_back();
+    picture.name = picture.file = skin;
+    texture.picture = static_cast<int>(scene->pictures.size()) - 1;
+  }
   pose_scene(*scene, time);
   scene->clips.clear();
   return std::move(*scene);
