@@ -5,7 +5,7 @@
 #
 # build   compiler, CMake and every library that cmake/dependencies.cmake and tests/ look for: `make test`
 # demo    build, and the models that the demo lights
-# bench   build, and Google Benchmark
+# bench   build, Google Benchmark, and the models of the crowd
 # lint    build, clang-format and clang-tidy
 # fuzz    build, clang with its sanitizer and fuzzer runtimes
 set -eu
@@ -23,7 +23,7 @@ for task in "${@:-build}"; do
   case $task in
     build) ;;
     demo) wanted="$wanted assimp-testmodels" ;;
-    bench) wanted="$wanted libbenchmark-dev" ;;
+    bench) wanted="$wanted libbenchmark-dev assimp-testmodels" ;;
     lint) wanted="$wanted clang-format-14 clang-tidy-16" ;;
     fuzz) wanted="$wanted clang libclang-rt-14-dev" ;;
     *)

@@ -18,6 +18,18 @@ Timing timing_over(const std::vector<FrameCost>& costs, ValueOf value_of) {
   return timing_of(std::move(values));
 }
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Puts what moves where it is that much later.
+Result<double> go_on(Renderer& renderer, double seconds) {
+  const auto start = std::chrono::steady_clock::now();
+  if (Result<int> set = renderer.set_time(renderer.time() + seconds); !set)
+    return tl::unexpected(set.error());
+  return milliseconds_since(start);
+}
+
 // Sets a node that carries a mesh where it is.
 Result<double> pose_anew(Renderer& renderer) {
   const std::vector<Node>& nodes = renderer.scene().nodes;
@@ -28,7 +40,12 @@ Result<double> pose_anew(Renderer& renderer) {
   if (Result<void> set = renderer.set_transform(static_cast<int>(carrier - nodes.begin()), place); !set) {
     return tl::unexpected(set.error());
   }
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return milliseconds_since(start);
+}
+
+Result<double> pose(Renderer& renderer, const FrameSeries& series) {
+  if (series.seconds_per_frame != 0) return go_on(renderer, series.seconds_per_frame);
+  return series.poses_anew ? pose_anew(renderer) : 0;
 }
 
 // Draws a subject into memory of its own.
@@ -107,7 +124,7 @@ Result<FrameCosts> draw_series(Subject& subject, const FrameSeries& series,
   FrameCosts costs;
   Painter painter(subject);
   for (int i = -series.warm_up; i < series.frames; ++i) {
-    const Result<double> pose_ms = series.poses_anew ? pose_anew(subject.renderer) : 0;
+    const Result<double> pose_ms = pose(subject.renderer, series);
     if (!pose_ms) return tl::unexpected(pose_ms.error());
     const Result<RenderStatistics> drawn = painter.draw();
     if (!drawn) return tl::unexpected(drawn.error());

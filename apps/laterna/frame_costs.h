@@ -23,6 +23,7 @@ struct FrameSeries {
   int warm_up = 3, frames = 15;
   bool poses_anew =
       false;  ///< before each frame, geometry is carried to world space again, as when something moves
+  double seconds_per_frame = 0;  ///< scene time that passes before each frame; posing is then what that costs
 };
 
 struct FrameCost {

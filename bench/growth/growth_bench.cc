@@ -1,5 +1,5 @@
-// How the cost of a frame grows: with triangles, pixels, lights, texels of shadow maps, threads, and from instruction set
-// to instruction set. Prints Markdown.
+// How the cost of a frame grows: with triangles, pixels, lights, texels of shadow maps, threads, from instruction set to
+// instruction set, and of a crowd with its models and lights. Prints Markdown.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "crowd.h"
 #include "growth_table.h"
 #include "landscape.h"
 #include "workload.h"
@@ -115,6 +116,73 @@ Table instruction_sets_table() {
   return table;
 }
 
+// What passes from frame to frame of a film.
+constexpr double kFilmFrame = 1.0 / 24;
+
+std::function<Result<app::Subject>()> subject_of(Crowd crowd, Size size, Machine machine = {}) {
+  return [=]() -> Result<app::Subject> {
+    Result<Scene> scene = make_crowd(crowd);
+    if (!scene) return tl::unexpected(scene.error());
+    Result<Renderer> renderer = Renderer::create(std::move(*scene), {machine.threads, machine.set});
+    if (!renderer) return tl::unexpected(renderer.error());
+    RenderSettings settings;
+    settings.width = size.width;
+    settings.height = size.height;
+    return app::Subject{std::move(*renderer),
+                        look_at_crowd(crowd, static_cast<double>(size.width) / size.height),
+                        settings,
+                        {}};
+  };
+}
+
+constexpr Size kCrowdSize = {1280, 720};
+
+Table crowd_models_table(bool quick) {
+  Table table = {"crowd: models",
+                 "1280 × 720, models that all move, under 8 moving spots with maps of 512², one thread.",
+                 "model"};
+  table.seconds_per_frame = kFilmFrame;
+  for (const int count : {10, 50, 200, 800}) {
+    if (quick && count > 200) break;
+    table.rows.push_back(
+        {std::to_string(count), static_cast<double>(count), subject_of(Crowd{count}, kCrowdSize)});
+  }
+  return table;
+}
+
+Table crowd_lights_table(bool quick) {
+  Table table = {"crowd: lights", "The same with 200 models under more and more lights.", "light"};
+  table.seconds_per_frame = kFilmFrame;
+  for (const int count : {1, 2, 4, 8, 16}) {
+    if (quick && count > 8) break;
+    table.rows.push_back(
+        {std::to_string(count), static_cast<double>(count), subject_of(Crowd{200, count}, kCrowdSize)});
+  }
+  return table;
+}
+
+Table crowd_pixels_table(bool quick) {
+  Table table = {"crowd: pixels", "200 models under 8 lights, one thread.", "pixel"};
+  table.seconds_per_frame = kFilmFrame;
+  for (const Size size :
+       {Size{640, 400}, Size{1280, 720}, Size{1920, 1080}, Size{2560, 1600}, Size{3840, 2160}}) {
+    if (quick && size.width > 1920) break;
+    table.rows.push_back(
+        {fmt::format("{} × {}", size.width, size.height), size.pixels(), subject_of(Crowd{}, size)});
+  }
+  return table;
+}
+
+Table crowd_threads_table() {
+  Table table = {"crowd: threads",
+                 "1280 × 720, 200 models under 8 lights. Stages are sums over threads, but for posing.", ""};
+  table.seconds_per_frame = kFilmFrame;
+  const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  for (int count = 1; count <= processors; count *= 2)
+    table.rows.push_back({std::to_string(count), 0, subject_of(Crowd{}, kCrowdSize, {count, {}})});
+  return table;
+}
+
 // The workloads of a file, where there is one; see workload.h.
 Table workloads_table(const std::filesystem::path& file) {
   Table table = {"workloads", fmt::format("Those of {}, one thread.", file.filename().string()), ""};
@@ -137,7 +205,7 @@ Table workloads_table(const std::filesystem::path& file) {
 
 struct Options {
   bool quick = false;
-  std::string only, workloads;
+  std::string only, workloads, pictures;
 };
 
 std::vector<Table> tables_of(const Options& options) {
@@ -146,7 +214,11 @@ std::vector<Table> tables_of(const Options& options) {
                                lights_table(options.quick),
                                maps_table(options.quick),
                                threads_table(),
-                               instruction_sets_table()};
+                               instruction_sets_table(),
+                               crowd_models_table(options.quick),
+                               crowd_lights_table(options.quick),
+                               crowd_pixels_table(options.quick),
+                               crowd_threads_table()};
   if (std::filesystem::exists(options.workloads)) tables.push_back(workloads_table(options.workloads));
   return tables;
 }
@@ -155,9 +227,10 @@ int run(const Options& options) {
   Effort effort;
   effort.rounds = options.quick ? 1 : 3;
   effort.series = {1, options.quick ? 1 : 3};
+  effort.pictures = options.pictures;
   bool is_whole = true, is_known = false;
   for (const Table& table : tables_of(options)) {
-    if (!options.only.empty() && table.name != options.only) continue;
+    if (!options.only.empty() && table.name.rfind(options.only, 0) != 0) continue;
     is_known = true;
     is_whole = print_growth(table, effort) && is_whole;
   }
@@ -169,7 +242,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App app("How the cost of a frame grows, as tables in Markdown");
   Options options;
   app.add_flag("--quick", options.quick, "one round, without the largest rows");
-  app.add_option("--only", options.only, "one table, such as triangles");
+  app.add_option("--only", options.only, "tables whose names begin so, such as triangles, crowd");
+  app.add_option("--pictures", options.pictures, "folder for the last frame of every row");
   app.add_option("--workloads", options.workloads, "file of workloads to add, see laterna bench --workload");
   CLI11_PARSE(app, argc, argv);
   return run(options);

@@ -35,11 +35,12 @@ std::vector<Column> columns_of(const Table& table) {
   return columns;
 }
 
-Result<RowCost> measure(const Row& row, const app::FrameSeries& series) {
+Result<RowCost> measure(const Row& row, const app::FrameSeries& series,
+                        const std::filesystem::path& picture) {
   Result<app::Subject> subject = row.prepare();
   if (!subject) return tl::unexpected(subject.error());
   subject->settings.keep_shadow_maps = row.keeps_maps;
-  const Result<app::FrameCosts> costs = app::draw_series(*subject, series);
+  const Result<app::FrameCosts> costs = app::draw_series(*subject, series, picture);
   if (!costs) return tl::unexpected(costs.error());
   RowCost cost;
   cost.pose_ms = costs->pose().median;
@@ -126,11 +127,16 @@ bool print_growth(const Table& table, const Effort& effort) {
   Rounds rounds(table.rows.size());
   app::FrameSeries series = effort.series;
   series.poses_anew = table.poses_anew;
+  series.seconds_per_frame = table.seconds_per_frame;
   for (int round = 0; round < effort.rounds; ++round) {
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
       fmt::print(stderr, "{}: round {} of {}, {}\n", table.name, round + 1, effort.rounds,
                  table.rows[r].label);
-      const Result<RowCost> cost = run_in_own_process([&] { return measure(table.rows[r], series); });
+      std::filesystem::path picture;
+      if (!effort.pictures.empty())
+        picture = effort.pictures / fmt::format("{}-{}.png", table.name, table.rows[r].label);
+      const Result<RowCost> cost =
+          run_in_own_process([&] { return measure(table.rows[r], series, picture); });
       if (!cost) {
         fmt::print(stderr, "{}, {}: {}\n", table.name, table.rows[r].label, to_string(cost.error()));
         return false;

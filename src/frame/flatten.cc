@@ -109,10 +109,37 @@ void lay_out(std::vector<PlacedPart>& placed, Frame& frame) {
   frame.corners.resize(clusters * kTrianglesPerCluster);
 }
 
+// A run of a part's clusters and the vertices that are theirs: what one thread writes at a time, so that one large skin is
+// posed by all of them.
+struct PartRange {
+  const PlacedPart* part;
+  std::size_t first_cluster, cluster_count;
+};
+
+std::vector<PartRange> split(const std::vector<const PlacedPart*>& parts) {
+  constexpr std::size_t kClusters = 16;
+  std::vector<PartRange> ranges;
+  for (const PlacedPart* part : parts) {
+    const std::size_t clusters = part->clustered->clusters.size();
+    for (std::size_t first = 0; first < clusters; first += kClusters)
+      ranges.push_back({part, first, std::min(kClusters, clusters - first)});
+  }
+  return ranges;
+}
+
 class PartWriter {
  public:
-  PartWriter(const PlacedPart& placed, Frame& frame)
-      : placed_(placed), frame_(frame), is_mirrored_(is_mirroring(placed.pose->world_from_object)) {}
+  PartWriter(const PartRange& range, Frame& frame)
+      : placed_(*range.part),
+        first_cluster_(range.first_cluster),
+        cluster_count_(range.cluster_count),
+        frame_(frame),
+        is_mirrored_(is_mirroring(placed_.pose->world_from_object)) {
+    const std::vector<ClusteredPrimitive::Extent>& clusters = placed_.clustered->clusters;
+    const ClusteredPrimitive::Extent& last = clusters[first_cluster_ + cluster_count_ - 1];
+    first_vertex_ = clusters[first_cluster_].first_vertex;
+    end_vertex_ = std::size_t{last.first_vertex} + last.vertex_count;
+  }
 
   void write() {
     write_vertices();
@@ -132,7 +159,7 @@ class PartWriter {
     VertexPoser poser(primitive, *placed_.pose);
     const bool has_normals = placed_.streams.normal != kNoStream;
     const bool has_tangents = placed_.streams.tangent != kNoStream;
-    for (std::size_t i = 0; i < source.size(); ++i) {
+    for (std::size_t i = first_vertex_; i < end_vertex_; ++i) {
       poser.select(source[i]);
       put(frame_.x_ws, frame_.y_ws, frame_.z_ws, placed_.first_vertex + i, poser.position_ws());
       if (has_normals) {
@@ -153,7 +180,7 @@ class PartWriter {
     const std::vector<std::uint32_t>& source = placed_.clustered->source_vertices;
     for (std::size_t set = 0; set < 2; ++set) {
       if (placed_.streams.uv[set] == kNoStream) continue;
-      for (std::size_t i = 0; i < source.size(); ++i) {
+      for (std::size_t i = first_vertex_; i < end_vertex_; ++i) {
         frame_.uv_u[set][placed_.streams.uv[set] + i] = primitive.uv[set][source[i]].x;
         frame_.uv_v[set][placed_.streams.uv[set] + i] = primitive.uv[set][source[i]].y;
       }
@@ -162,7 +189,7 @@ class PartWriter {
   }
 
   void write_colors(const std::vector<std::uint32_t>& source) {
-    for (std::size_t i = 0; i < source.size(); ++i) {
+    for (std::size_t i = first_vertex_; i < end_vertex_; ++i) {
       const glm::vec4& c = placed_.primitive->colors[source[i]];
       const std::size_t at = placed_.streams.color + i;
       frame_.color_r[at] = c.r, frame_.color_g[at] = c.g, frame_.color_b[at] = c.b, frame_.color_a[at] = c.a;
@@ -171,7 +198,7 @@ class PartWriter {
 
   void write_clusters() {
     const ClusteredPrimitive& clustered = *placed_.clustered;
-    for (std::size_t c = 0; c < clustered.clusters.size(); ++c) {
+    for (std::size_t c = first_cluster_; c < first_cluster_ + cluster_count_; ++c) {
       const ClusteredPrimitive::Extent& extent = clustered.clusters[c];
       const std::size_t at = placed_.first_cluster + c;
       Cluster& cluster = frame_.clusters[at];
@@ -218,6 +245,8 @@ class PartWriter {
   }
 
   const PlacedPart& placed_;
+  std::size_t first_cluster_, cluster_count_;
+  std::size_t first_vertex_, end_vertex_;  // of the clustered primitive
   Frame& frame_;
   bool is_mirrored_;
 };
@@ -285,7 +314,10 @@ void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
   std::vector<bool> moves;
   std::vector<PlacedPart> placed = place_parts(scene, meshes, world_from_node, frame, moves);
   lay_out(placed, frame);
-  pool.for_each(placed.size(), [&](std::size_t i, int) { PartWriter(placed[i], frame).write(); });
+  std::vector<const PlacedPart*> parts;
+  for (const PlacedPart& part : placed) parts.push_back(&part);
+  const std::vector<PartRange> ranges = split(parts);
+  pool.for_each(ranges.size(), [&](std::size_t i, int) { PartWriter(ranges[i], frame).write(); });
   frame.bounds = bounds_of(frame.clusters);
   frame.has_environment = scene.environment.has_value();
   frame.has_blending = std::any_of(frame.clusters.begin(), frame.clusters.end(),
@@ -300,7 +332,7 @@ void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
 
 Reposed repose_meshes(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
                       const TaskPool& pool, Frame& frame) {
-  std::vector<PlacedPart*> moved;
+  std::vector<const PlacedPart*> moved;
   const std::vector<bool> node_moves = moving_nodes(scene);
   if (node_moves.empty()) return {};
   auto part = frame.moving_parts.begin();
@@ -316,7 +348,8 @@ Reposed repose_meshes(const Scene& scene, const std::vector<glm::dmat4>& world_f
                       moved.push_back(&*part);
                     }
                   });
-  pool.for_each(moved.size(), [&](std::size_t i, int) { PartWriter(*moved[i], frame).rewrite(); });
+  const std::vector<PartRange> ranges = split(moved);
+  pool.for_each(ranges.size(), [&](std::size_t i, int) { PartWriter(ranges[i], frame).rewrite(); });
   Reposed reposed;
   reposed.parts = moved.size();
   for (const PlacedPart* rewritten : moved) {

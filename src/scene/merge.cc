@@ -6,6 +6,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "scene/node_path.h"
 #include "scene/node_selection.h"
 #include "scene/spelling.h"
 
@@ -154,6 +155,9 @@ void SceneMerger::apply(const std::vector<NodeOverride>& overrides, std::vector<
     for (std::size_t i = 0; i < merged_.nodes.size(); ++i) {
       if (is_chosen[i]) change.flags.apply(merged_.nodes[i]);
     }
+    if (!change.path) continue;
+    if (std::string fault = add_node_path(merged_, change.name, *change.path); !fault.empty())
+      faults.push_back({change.file, change.place, std::move(fault)});
   }
 }
 

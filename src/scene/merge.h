@@ -15,11 +15,12 @@
 
 namespace laterna {
 
-/// A rig's change to the flags of the nodes of one name and of everything below them.
+/// A rig's change to the flags of the nodes of one name and of everything below them, and what moves it.
 struct NodeOverride {
   std::string name;
   NodeFlags flags;
-  std::string file, place;  ///< where it is written
+  std::string file, place;   ///< where it is written
+  std::optional<Clip> path;  ///< moves the node; its channels' targets are still to be set
 };
 
 /// Where what a scene holds has gone.
@@ -35,7 +36,7 @@ class SceneMerger {
   MergedIndices add(Scene scene, const std::string& file);
 
   /// Changes nodes of all scenes added so far; nodes without that name are also found by their mesh's name.
-  /// Later overrides win. Faults: no such node.
+  /// Later overrides win. Faults: no such node, or one that cannot move.
   void apply(const std::vector<NodeOverride>& overrides, std::vector<Diagnostic>& faults);
 
   /// Lays further layers on surfaces, in their order.

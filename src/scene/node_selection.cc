@@ -9,18 +9,6 @@
 namespace laterna {
 namespace {
 
-std::vector<bool> nodes_called(const Scene& scene, const std::string& name) {
-  std::vector<bool> is_called(scene.nodes.size(), false);
-  bool any = false;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) any |= is_called[i] = scene.nodes[i].name == name;
-  if (any) return is_called;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    const int mesh = scene.nodes[i].mesh;
-    is_called[i] = mesh >= 0 && scene.meshes[static_cast<std::size_t>(mesh)].name == name;
-  }
-  return is_called;
-}
-
 // Everything below a chosen node is chosen too. Each chain upward is walked once.
 void choose_descendants(const Scene& scene, std::vector<bool>& is_chosen) {
   std::vector<bool> is_decided = is_chosen;
@@ -41,6 +29,18 @@ void choose_descendants(const Scene& scene, std::vector<bool>& is_chosen) {
 }
 
 }  // namespace
+
+std::vector<bool> nodes_called(const Scene& scene, const std::string& name) {
+  std::vector<bool> is_called(scene.nodes.size(), false);
+  bool any = false;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) any |= is_called[i] = scene.nodes[i].name == name;
+  if (any) return is_called;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const int mesh = scene.nodes[i].mesh;
+    is_called[i] = mesh >= 0 && scene.meshes[static_cast<std::size_t>(mesh)].name == name;
+  }
+  return is_called;
+}
 
 std::vector<bool> select_nodes(const Scene& scene, const std::string& name) {
   std::vector<bool> is_chosen = nodes_called(scene, name);

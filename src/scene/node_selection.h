@@ -8,6 +8,9 @@
 
 namespace laterna {
 
+/// For each node, whether it has that name; where none has, whether its mesh does.
+std::vector<bool> nodes_called(const Scene& scene, const std::string& name);
+
 /// For each node, whether it or one above it has that name; where no node has, whether its mesh does.
 std::vector<bool> select_nodes(const Scene& scene, const std::string& name);
 

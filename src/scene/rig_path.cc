@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/elementary.h"
 #include "laterna/lamps.h"
+#include "scene/instance_transforms.h"
 #include "scene/rig_pose.h"
 #include "scene/rig_ranges.h"
 
@@ -133,11 +135,14 @@ class PathReader {
       key.error("time",
                 fmt::format("{} s does not come after the key before it, at {} s", *time, last_time_));
     last_time_ = time.value_or(last_time_);
-    read_place(key);
     if (what_.camera != nullptr) {
+      read_place(key);
       read_field_of_view(key, what_.camera->projection, true);
-    } else {
+    } else if (what_.light != nullptr) {
+      read_place(key);
       read_light(key, *what_.light);
+    } else {
+      read_transform(key);
     }
     key.report_unknown_members("a key");
   }
@@ -171,6 +176,21 @@ class PathReader {
     }
     if (const std::optional<std::array<double, 9>> place = read_look_at(key, owner_))
       push(AnimatedProperty::look_at, true, *place);
+  }
+
+  // Of a node, as glTF has them.
+  void read_transform(JsonObject& key) {
+    if (const auto translation = key.numbers<3>("translation", kCoordinate))
+      push(AnimatedProperty::translation, true, *translation);
+    if (const auto scale = key.numbers<3>("scale", kCoordinate)) push(AnimatedProperty::scale, false, *scale);
+    const auto r = key.numbers<4>("rotation");
+    if (!r) return;
+    std::optional<glm::dvec4> rotation = normalized_rotation(glm::dvec4((*r)[0], (*r)[1], (*r)[2], (*r)[3]));
+    if (!rotation) return key.error("rotation", "expected a unit quaternion, got one without length");
+    // Of the two quaternions of a rotation the one that is nearer to the key before it.
+    if (glm::dot(*rotation, last_rotation_) < 0) *rotation = -*rotation;
+    last_rotation_ = *rotation;
+    push<4>(AnimatedProperty::rotation, true, {rotation->x, rotation->y, rotation->z, rotation->w});
   }
 
   void read_field_of_view(JsonObject& key, const Projection& projection, bool has_any) {
@@ -243,6 +263,7 @@ class PathReader {
   Smoothness smoothness_ = Smoothness::smooth;
   bool has_keys_ = false, moves_ = false;
   double last_time_ = -1;
+  glm::dvec4 last_rotation_{0, 0, 0, 1};
   std::vector<Track> tracks_;
   Clip clip_;
 };

@@ -153,9 +153,11 @@ class RigReader {
     change.name = object.string("name").value_or("");
     if (object.has("name") && change.name.empty()) object.error("name", "is empty");
     change.flags = read_node_flags(object);
+    object.any("path");
     object.report_unknown_members("a node");
     change.file = faults_.file();
     change.place = json_.place(value, "name");
+    change.path = read_rig_path(json_, value, {}, faults_);
     rig_.overrides.push_back(std::move(change));
   }
 

@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/gtc/constants.hpp>
 
+#include "game_models.h"
 #include "paintings.h"
 
 namespace laterna::app {
@@ -93,6 +95,13 @@ void add_two_lamps(Scene& scene) {
   add_lamp(scene, "right", {{2.9, 2.6, 2.2}, {0, 0.3, -0.1}}, Angle::degrees(24), {0.34F, 0.50F, 0.78F});
 }
 
+void add_walker(Scene& scene, const std::string& name, int number, glm::vec3 foot, float turn) {
+  // They look along +X, mannequins along +Z.
+  if (add_game_model(scene, name, number, {foot, turn - glm::half_pi<float>(), 0.13 * number})) return;
+  const int coat = add_material(scene, "coat", glm::vec3(1), add_picture(scene, "coat", paint_coat(256)));
+  add_object(scene, name, mannequin(foot, 0.18, turn), coat);
+}
+
 Shot parade_set(Ground ground) {
   Shot shot;
   Scene& scene = shot.scene;
@@ -107,12 +116,12 @@ Shot parade_set(Ground ground) {
   } else {
     add_floor(scene);
   }
-  const int coat = add_material(scene, "coat", glm::vec3(1), add_picture(scene, "coat", paint_coat(256)));
   constexpr std::array<glm::vec3, 4> kPlaces = {
       {{-1.7F, 0.25F, 0.55F}, {-0.75F, 0.6F, -0.25F}, {0.35F, -0.4F, 0.75F}, {1.45F, 0.8F, -0.2F}}};
-  for (const glm::vec3& place : kPlaces) {
+  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+    const glm::vec3 place = kPlaces.at(i);
     const glm::vec3 foot(place.x, height(place.x, place.z), place.z);
-    add_object(scene, "mannequin", mannequin(foot, 0.18, place.y), coat);
+    add_walker(scene, "walker", static_cast<int>(i), foot, place.y);
   }
   shot.camera = {{0.4, 2.9, 6.9}, {0.2, 0.85, 0}};
   return shot;

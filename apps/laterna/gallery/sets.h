@@ -14,9 +14,12 @@ Light& add_morning_sun(Scene& scene);
 /// "left" and "right", two lamps of different colours that reach all of solids_set().
 void add_two_lamps(Scene& scene);
 
-/// What mannequins walk on.
+/// What walkers walk on.
 enum class Ground { plane, hills };
-/// Mannequins in coats of many colours, without lights. They walk behind each other as seen from add_morning_sun().
+/// One of those that walk, on the ground: models of a game where Debian's assimp-testmodels are installed (game_models.h),
+/// else mannequins in coats of many colours. `number`: each looks different, as far as there are different ones.
+void add_walker(Scene& scene, const std::string& name, int number, glm::vec3 foot, float turn);
+/// Four of them, without lights. They walk behind each other as seen from add_morning_sun().
 Shot parade_set(Ground ground);
 
 /// A fence and a ball on a floor, lit by "sun" from behind the fence.
