@@ -121,7 +121,7 @@ struct RenderStatistics {
   /// What was redone of shadow maps, and what was not (docs/caches.md). Tiles are 64 × 64 texels, drawn when a sample asks
   /// for them.
   struct MapReuse {
-    int maps_updated = 0;  ///< of maps_drawn: only where something moved
+    int maps_updated = 0;             ///< of maps_drawn: only where something moved
     std::uint64_t tiles_kept = 0;     ///< that were drawn for earlier pictures
     std::uint64_t tiles_updated = 0;  ///< what moves was drawn over what stands
     std::uint64_t tiles_drawn = 0;    ///< with everything in them
@@ -130,7 +130,7 @@ struct RenderStatistics {
     std::size_t bytes = 0;  ///< kept when the picture was done
   };
   MapReuse map_reuse;
-  int pictures = 1;                   ///< that were averaged
+  int pictures = 1;  ///< that were averaged
   /// Estimated standard error of the picture's luminance, over all pixels, as a fraction of its mean. 0 for one picture.
   double noise = 0;
   struct LightMemory {
@@ -161,7 +161,7 @@ struct PosingStatistics {
 inline constexpr std::uint64_t kEnvironmentCacheBytes = std::uint64_t{1} << 30;
 
 /// RendererOptions::cache_bytes, unless set.
-inline constexpr std::uint64_t kDefaultCacheBytes = std::uint64_t{2} << 30;
+inline constexpr std::uint64_t kDefaultCacheBytes = std::uint64_t{4} << 30;
 inline constexpr std::uint64_t kMaxCacheBytes = std::uint64_t{1} << 40;
 
 struct RendererOptions {

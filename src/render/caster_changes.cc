@@ -85,7 +85,9 @@ void CasterChanges::note_change(std::uint32_t first, std::uint32_t end, const fr
                                  [](const Cluster& c) { return (c.flags & kMoves) == 0; });
   if (stood) set_moves(frame, first, end, true);
   // Runs of materials and of parts that move may overlap.
-  const auto same = [&](const Mover& mover) { return mover.first_cluster == first && mover.end_cluster == end; };
+  const auto same = [&](const Mover& mover) {
+    return mover.first_cluster == first && mover.end_cluster == end;
+  };
   const auto known = std::ranges::find_if(movers_, same);
   if (known != movers_.end()) {
     known->changed_at = revision_;

@@ -1,6 +1,7 @@
 #include "render/depth_map_cache.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/stopwatch.h"
 #include "render/depth_map_painter.h"
@@ -76,10 +77,10 @@ DepthMapCache::KeptMap DepthMapCache::make(const light::ShadowView& view, const 
 
 // The near plane of a lamp stands before the nearest caster. Where that moves and nothing comes near the plane, the map stays
 // what it is.
-std::vector<DepthMapCache::KeptMap>::iterator DepthMapCache::find_view(Entry& entry,
+std::vector<DepthMapCache::KeptMap>::iterator DepthMapCache::find_view(std::vector<KeptMap>& maps,
                                                                        const light::ShadowView& view,
                                                                        const frame::Frame& frame) {
-  return std::ranges::find_if(entry.maps, [&](KeptMap& kept) {
+  return std::ranges::find_if(maps, [&](KeptMap& kept) {
     if (kept.map == nullptr || !same_picture(kept.view, view)) return false;
     if (has_near_of(kept.view, view)) return true;
     if (view.warp || view.view.projection.is_orthographic) return false;
@@ -111,18 +112,19 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
   entry.used = ++uses_;
   list_lock.unlock();
   const std::lock_guard lock(entry.mutex);
-  if (anew || entry.faces != key.faces || entry.keeps_triangles != key.keeps_triangles) entry.maps.clear();
+  // Where this ends with an exception, nothing is kept.
+  std::vector<KeptMap> before = std::exchange(entry.maps, {});
+  if (anew || entry.faces != key.faces || entry.keeps_triangles != key.keeps_triangles) before.clear();
   Found found;
   // Of cascades, those that the camera has not moved stay.
   std::vector<KeptMap> maps(key.views.size());
   for (std::size_t i = 0; i < maps.size(); ++i) {
-    const auto kept = find_view(entry, key.views[i], context.frame);
-    if (kept == entry.maps.end()) continue;
-    KeptMap taken = std::move(*kept);
-    *kept = {};
+    const auto kept = find_view(before, key.views[i], context.frame);
+    if (kept == before.end()) continue;
+    KeptMap taken = std::exchange(*kept, {});
     if (update(taken, found)) maps[i] = std::move(taken);
   }
-  entry.maps.clear();
+  before.clear();
   entry.faces = key.faces;
   entry.keeps_triangles = key.keeps_triangles;
   for (std::size_t i = 0; i < maps.size(); ++i) {

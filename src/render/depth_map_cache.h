@@ -90,12 +90,14 @@ class DepthMapCache {
     std::uint64_t used = 0;  // when
   };
 
-  // Which of the entry's maps is of that view, if any, whatever has moved since.
-  [[nodiscard]] static std::vector<KeptMap>::iterator find_view(Entry& entry, const light::ShadowView& view,
+  // Which of the maps is of that view, if any, whatever has moved since.
+  [[nodiscard]] static std::vector<KeptMap>::iterator find_view(std::vector<KeptMap>& maps,
+                                                                const light::ShadowView& view,
                                                                 const frame::Frame& frame);
   // Brings the map to how casters are now. False: it has to be made anew.
   [[nodiscard]] bool update(KeptMap& kept, Found& found) const;
-  [[nodiscard]] KeptMap make(const light::ShadowView& view, const DepthMapKey& key, const DrawContext& context);
+  [[nodiscard]] KeptMap make(const light::ShadowView& view, const DepthMapKey& key,
+                             const DrawContext& context);
 
   const CasterChanges& casters_;
   MapWork work_;

@@ -139,8 +139,7 @@ void DepthMapPainter::divide_into_layers(const shadow::DepthMap& map) {
   rest();  // what is sorted is of both
   if (began_with_movers_) return;
   for_each_tile({0, 0, map.tiles_x(), map.tiles_y()}, [&](int x, int y) {
-    if (map.is_drawn(x, y))
-      layers_[static_cast<std::size_t>(y * tiles_x_ + x)].place = Layer::Place::in_map;
+    if (map.is_drawn(x, y)) layers_[static_cast<std::size_t>(y * tiles_x_ + x)].place = Layer::Place::in_map;
   });
 }
 

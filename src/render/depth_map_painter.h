@@ -89,7 +89,7 @@ class DepthMapPainter final : public shadow::TilePainter {
   int tiles_x_ = 0;
   std::vector<Layer> layers_;  // one per tile; empty: all casters are drawn at once
   mutable std::mutex mutex_;
-  Bins bins_, moving_bins_;  // null while resting
+  Bins bins_, moving_bins_;                                          // null while resting
   std::atomic<std::size_t> bins_bytes_ = 0, moving_bins_bytes_ = 0;  // when last sorted
 };
 

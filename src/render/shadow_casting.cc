@@ -29,8 +29,8 @@ std::unique_ptr<shadow::PaneFinder> ShadowCasting::make_panes(const light::Plann
   if (planned.technique == ShadowTechnique::raytraced) {
     return std::make_unique<shadow::RayTracedPanes>(planned, context_.frame, context_.casters.ray_scene());
   }
-  return std::make_unique<shadow::ExactPanes>(
-      planned, context_.frame, context_.casters.pane_tree(), context_.instruction_set);
+  return std::make_unique<shadow::ExactPanes>(planned, context_.frame, context_.casters.pane_tree(),
+                                              context_.instruction_set);
 }
 
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light::PlannedLight& planned,

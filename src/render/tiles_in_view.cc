@@ -62,7 +62,6 @@ raster::Rect tiles_in_view(const raster::RasterView& view, const frame::Bounds& 
   if (is_beside(view, corners)) return {};
   const Projection& projection = view.view.projection;
   if (!view.is_orthographic) {
-    if (corners.w.high < projection.near * (1 - kRounding)) return {};
     if (corners.w.low > projection.far * (1 + kRounding)) return {};
     // What passes the eye is seen in every direction.
     if (corners.w.low <= projection.near * kRounding) return all;
@@ -76,9 +75,10 @@ raster::Rect tiles_in_view(const raster::RasterView& view, const frame::Bounds& 
     const double number = std::floor((pixel + origin) / raster::kTileSide);
     return static_cast<int>(std::clamp(number, -1.0, static_cast<double>(tiles)));
   };
-  const raster::Rect seen = {
-      tile(x.low - kMargin, view.origin_x, all.x_end), tile(y.low - kMargin, view.origin_y, all.y_end),
-      tile(x.high + kMargin, view.origin_x, all.x_end) + 1, tile(y.high + kMargin, view.origin_y, all.y_end) + 1};
+  const raster::Rect seen = {tile(x.low - kMargin, view.origin_x, all.x_end),
+                             tile(y.low - kMargin, view.origin_y, all.y_end),
+                             tile(x.high + kMargin, view.origin_x, all.x_end) + 1,
+                             tile(y.high + kMargin, view.origin_y, all.y_end) + 1};
   return raster::overlap(seen, all);
 }
 
@@ -86,9 +86,8 @@ bool is_clear_between(const raster::RasterView& a, const raster::RasterView& b, 
   const auto [nearer, farther] = std::minmax(a.view.projection.near, b.view.projection.near);
   return std::ranges::all_of(frame.clusters, [&](const Cluster& c) {
     if (!is_opaque_caster(c)) return true;
-    const frame::Bounds box = {{c.low_ws[0], c.low_ws[1], c.low_ws[2]},
-                               {c.high_ws[0], c.high_ws[1], c.high_ws[2]},
-                               false};
+    const frame::Bounds box = {
+        {c.low_ws[0], c.low_ws[1], c.low_ws[2]}, {c.high_ws[0], c.high_ws[1], c.high_ws[2]}, false};
     const Corners corners(a, box);
     return corners.w.high < nearer * (1 - kRounding) || corners.w.low > farther * (1 + kRounding) ||
            is_beside(a, corners);

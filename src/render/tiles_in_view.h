@@ -7,7 +7,7 @@
 
 namespace laterna::render {
 
-/// Tiles of the view's picture that hold all that can be seen of the box; empty where nothing can.
+/// Tiles of the view's picture that hold all that can be seen of the box, wherever its near plane is; empty where nothing can.
 raster::Rect tiles_in_view(const raster::RasterView& view, const frame::Bounds& box);
 
 /// Whether the near plane may be in either place: between both, and where either stands, there is no opaque caster within

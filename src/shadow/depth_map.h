@@ -74,7 +74,8 @@ class DepthMap {
   /// with a painter, and while nobody reads the map.
   void forget(int tile_x, int tile_y);
   [[nodiscard]] std::size_t tiles_drawn() const {
-    return states_ == nullptr ? tile_count() : tile_count() - states_->missing.load(std::memory_order_acquire);
+    return states_ == nullptr ? tile_count()
+                              : tile_count() - states_->missing.load(std::memory_order_acquire);
   }
   /// The same picture, seen through a view with another near plane, while nobody reads the map.
   void set_view(const raster::RasterView& view) { view_ = view; }

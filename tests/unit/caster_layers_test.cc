@@ -159,10 +159,10 @@ TEST(CasterLayers, OnlyWhatMovesIsDrawnAgain) {
 // The near plane of a lamp stands half way to the nearest caster, which is the one that moves.
 TEST(CasterLayers, AMoverBeforeTheNearPlaneDoesNotCostTheMap) {
   Hall h = hall();
-  move(h.scene, h.ball, {0, 1}, {0, 0.5, 0, 0, 2, 0});
+  move(h.scene, h.ball, {0, 1}, {0, 4.3, 0, 0, 0, 0});
   h.scene.clips.erase(h.scene.clips.begin());
   reference::add_light(h.scene, lamp("spot", LightType::spot), {0, 6, 0.5}, {0, 0, 0});
-  const std::vector<RenderStatistics> drawn = check_series(h.scene, {0, 0.3, 0.6, 1});
+  const std::vector<RenderStatistics> drawn = check_series(h.scene, {0, 0.1, 0.9, 1, 0});
   for (std::size_t i = 2; i < drawn.size(); ++i) {
     EXPECT_EQ(drawn[i].map_reuse.maps_updated, 1);
     EXPECT_EQ(drawn[i].map_reuse.tiles_drawn, 0U);
@@ -221,8 +221,10 @@ TEST(CasterLayers, ALightThatMovesRedoesItsOwnMapAlone) {
   const int node = reference::add_light(h.scene, lamp("goes", LightType::projector), {0, 6, 0.5}, {0, 0, 0});
   Clip& clip = h.scene.clips.emplace_back();
   clip.is_path = true;
-  clip.keys.push_back({KeyInterpolation::linear, {0, 1}, {-2, 6, 0.5, 0, 0, 0, 0, 0, -1,  //
-                                                          2, 6, 0.5, 0, 0, 0, 0, 0, -1}});
+  clip.keys.push_back({KeyInterpolation::linear,
+                       {0, 1},
+                       {-2, 6, 0.5, 0, 0, 0, 0, 0, -1,  //
+                        2, 6, 0.5, 0, 0, 0, 0, 0, -1}});
   ClipChannel channel;
   channel.property = AnimatedProperty::look_at;
   channel.target = node;
@@ -239,7 +241,8 @@ TEST(CasterLayers, ALightThatMovesRedoesItsOwnMapAlone) {
 TEST(CasterLayers, WhatRestsStandsAgain) {
   Hall h = hall();
   h.scene.clips.clear();
-  const int door = reference::add_object(h.scene, "door", reference::box({0.4F, 0.6F, 0.5F}, {0.4F, 0.6F, 0.1F}));
+  const int door =
+      reference::add_object(h.scene, "door", reference::box({0.4F, 0.6F, 0.5F}, {0.4F, 0.6F, 0.1F}));
   std::vector<double> times, places;
   for (int i = 0; i <= 44; ++i) {
     times.push_back(i);
@@ -346,8 +349,8 @@ TEST(TilesInView, HoldEveryPointOfABoxAndFewMore) {
       empty += tiles.is_empty() ? 1 : 0;
       raster::Rect seen = raster::Rect::nowhere();
       for (int i = 0; i < 300; ++i) {
-        const glm::dvec3 point = glm::dvec3(middle) + glm::dvec3(half) * glm::dvec3(number(-1, 1), number(-1, 1),
-                                                                                   number(-1, 1));
+        const glm::dvec3 point =
+            glm::dvec3(middle) + glm::dvec3(half) * glm::dvec3(number(-1, 1), number(-1, 1), number(-1, 1));
         const glm::dvec3 from_eye = point - raster.eye_ws;
         const double w = raster.is_orthographic ? 1 : glm::dot(raster.w_row, from_eye);
         const double along = glm::dot(view.pose.forward_ws(), point - view.pose.position_ws);
@@ -361,7 +364,8 @@ TEST(TilesInView, HoldEveryPointOfABoxAndFewMore) {
                     tile_y < tiles.y_end)
             << trial;
       }
-      if (!seen.is_empty() && tiles.width() <= seen.width() + 2 && tiles.height() <= seen.height() + 2) ++partly;
+      if (!seen.is_empty() && tiles.width() <= seen.width() + 2 && tiles.height() <= seen.height() + 2)
+        ++partly;
     }
   }
   EXPECT_GT(empty, 100);
