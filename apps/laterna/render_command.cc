@@ -179,13 +179,21 @@ nlohmann::json statistics_json(const RenderStatistics& s, double load_ms) {
                            {"silhouettes", light.silhouettes},
                            {"silhouettes_drawn", light.silhouettes_drawn}});
   }
-  return {{"load_ms", load_ms},         {"plan_ms", s.plan_ms},
-          {"shadow_ms", s.shadow_ms},   {"bin_ms", s.bin_ms},
-          {"shade_ms", s.shade_ms},     {"render_ms", s.total_ms},
-          {"triangles", s.triangles},   {"triangles_drawn", s.triangles_drawn},
-          {"maps_drawn", s.maps_drawn}, {"maps_kept", s.maps_kept},
-          {"silhouettes", silhouettes}, {"shadow_memory", memory},
-          {"pictures", s.pictures},     {"noise", s.noise}};
+  nlohmann::json told = {{"load_ms", load_ms},         {"plan_ms", s.plan_ms},
+                         {"shadow_ms", s.shadow_ms},   {"bin_ms", s.bin_ms},
+                         {"shade_ms", s.shade_ms},     {"render_ms", s.total_ms},
+                         {"triangles", s.triangles},   {"triangles_drawn", s.triangles_drawn},
+                         {"maps_drawn", s.maps_drawn}, {"maps_kept", s.maps_kept},
+                         {"silhouettes", silhouettes}, {"shadow_memory", memory},
+                         {"pictures", s.pictures},     {"noise", s.noise}};
+  told["map_reuse"] = {{"maps_updated", s.map_reuse.maps_updated},
+                       {"tiles_kept", s.map_reuse.tiles_kept},
+                       {"tiles_updated", s.map_reuse.tiles_updated},
+                       {"tiles_drawn", s.map_reuse.tiles_drawn},
+                       {"triangles", s.map_reuse.triangles},
+                       {"moving_triangles", s.map_reuse.moving_triangles},
+                       {"bytes", s.map_reuse.bytes}};
+  return told;
 }
 
 /// A lamp with a size and a lens that is open throw soft shadows, but most techniques see their middle alone.

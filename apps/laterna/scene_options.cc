@@ -71,6 +71,11 @@ void SceneOptions::declare_machine(CLI::App& command) {
       ->capture_default_str();
   command.add_flag("--no-cache", no_cache,
                    "do not keep what was worked out from environments, nor use what was kept");
+  command
+      .add_option("--cache-memory", cache_megabytes,
+                  "megabytes of shadow maps that are kept from picture to picture; 0: none")
+      ->check(CLI::Range(std::uint64_t{0}, kMaxCacheBytes >> 20U))
+      ->capture_default_str();
   command.add_option("--isa", instruction_set,
                      "instruction set: scalar, sse4, avx2, avx512 or neon; the picture is the same");
 }
@@ -102,6 +107,7 @@ Result<RendererOptions> SceneOptions::renderer_options() const {
   if (!no_cache) options.environment_cache = environment_cache();
   options.environment_progress = progress_line("filtering the environment");
   options.time = time;
+  options.cache_bytes = cache_megabytes << 20U;
   if (instruction_set.empty()) return options;
   options.instruction_set = instruction_set_named(instruction_set);
   if (!options.instruction_set) {

@@ -22,10 +22,11 @@ struct SceneOptions {
   std::string instruction_set;
   std::string environment;
   bool no_cache = false;
+  std::uint64_t cache_megabytes = kDefaultCacheBytes >> 20U;
 
   /// SCENE..., --rig, --environment, --up, --unit, --clip, --time.
   void declare_scene(CLI::App& command);
-  /// --threads, --isa, --no-cache.
+  /// --threads, --isa, --no-cache, --cache-memory.
   void declare_machine(CLI::App& command);
 
   [[nodiscard]] double metres_per_unit() const;  ///< of --unit

@@ -117,8 +117,20 @@ struct RenderStatistics {
   StageTimes picture_stages;  ///< of the camera's view
   std::uint64_t triangles = 0,
                 triangles_drawn = 0;  ///< of the camera's view: considered, and sorted into tiles
-  int maps_drawn = 0, maps_kept = 0;  ///< shadow maps
-  int pictures = 1;                   ///< that were averaged
+  int maps_drawn = 0, maps_kept = 0;  ///< shadow maps: made, or changed in part; and left as they were
+  /// What was redone of shadow maps, and what was not (docs/caches.md). Tiles are 64 × 64 texels, drawn when a sample asks
+  /// for them.
+  struct MapReuse {
+    int maps_updated = 0;             ///< of maps_drawn: only where something moved
+    std::uint64_t tiles_kept = 0;     ///< that were drawn for earlier pictures
+    std::uint64_t tiles_updated = 0;  ///< what moves was drawn over what stands
+    std::uint64_t tiles_drawn = 0;    ///< with everything in them
+    /// Sorted into maps: all casters, or those that stand; and those that move, over them.
+    std::uint64_t triangles = 0, moving_triangles = 0;
+    std::size_t bytes = 0;  ///< kept when the picture was done
+  };
+  MapReuse map_reuse;
+  int pictures = 1;  ///< that were averaged
   /// Estimated standard error of the picture's luminance, over all pixels, as a fraction of its mean. 0 for one picture.
   double noise = 0;
   struct LightMemory {
@@ -148,6 +160,10 @@ struct PosingStatistics {
 /// How much RendererOptions::environment_cache holds at most; what was not used for longest goes first.
 inline constexpr std::uint64_t kEnvironmentCacheBytes = std::uint64_t{1} << 30;
 
+/// RendererOptions::cache_bytes, unless set.
+inline constexpr std::uint64_t kDefaultCacheBytes = std::uint64_t{4} << 30;
+inline constexpr std::uint64_t kMaxCacheBytes = std::uint64_t{1} << 40;
+
 struct RendererOptions {
   int threads = 0;                                ///< 0: one per processor
   std::optional<InstructionSet> instruction_set;  ///< unset: the best this machine has
@@ -155,6 +171,9 @@ struct RendererOptions {
   /// A folder in which what was worked out from environments is kept from run to run; empty: nowhere. At most
   /// kEnvironmentCacheBytes; what cannot be read or written there is worked out anew.
   std::filesystem::path environment_cache = {};
+  /// Shadow maps, what stands still in them and its sorted triangles take no more than this between pictures; what was not
+  /// used for longest is given up first. 0: nothing is kept. At most kMaxCacheBytes.
+  std::uint64_t cache_bytes = kDefaultCacheBytes;
   Progress environment_progress = {};  ///< of working out the environment; what it returns is not looked at
 };
 

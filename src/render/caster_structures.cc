@@ -1,12 +1,20 @@
 #include "render/caster_structures.h"
 
+#include "render/caster_changes.h"
+
 namespace laterna::render {
 
 void CasterStructures::forget() {
+  forget_movers();
+  const std::lock_guard lock(mutex_);
+  standing_.reset();
+}
+
+void CasterStructures::forget_movers() {
   ++revision_;
   const std::lock_guard lock(mutex_);
   rays_.reset();
-  casters_.reset();
+  moving_.reset();
   panes_.reset();
   neighbours_.reset();
 }
@@ -17,12 +25,22 @@ std::shared_ptr<const trace::RayScene> CasterStructures::ray_scene() const {
   return rays_;
 }
 
-std::shared_ptr<const shadow::CasterTree> CasterStructures::caster_tree(
-    shadow::CasterTree::Casters which) const {
+std::vector<std::shared_ptr<const shadow::CasterTree>> CasterStructures::caster_trees() const {
+  using shadow::CasterTree;
   const std::lock_guard lock(mutex_);
-  auto& tree = which == shadow::CasterTree::Casters::opaque ? casters_ : panes_;
-  if (tree == nullptr) tree = std::make_shared<const shadow::CasterTree>(frame_, which);
-  return tree;
+  if (standing_ == nullptr)
+    standing_ = std::make_shared<const CasterTree>(frame_, CasterTree::Casters::opaque, kMoves, 0);
+  if (moving_ == nullptr)
+    moving_ = std::make_shared<const CasterTree>(frame_, CasterTree::Casters::opaque, kMoves, kMoves);
+  if (moving_->is_empty()) return {standing_};
+  return {standing_, moving_};
+}
+
+std::shared_ptr<const shadow::CasterTree> CasterStructures::pane_tree() const {
+  using shadow::CasterTree;
+  const std::lock_guard lock(mutex_);
+  if (panes_ == nullptr) panes_ = std::make_shared<const CasterTree>(frame_, CasterTree::Casters::blended);
+  return panes_;
 }
 
 const frame::TriangleNeighbours* CasterStructures::triangle_neighbours() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "base/task_pool.h"
 #include "frame/cluster_builder.h"
@@ -25,12 +26,15 @@ class CasterStructures {
 
   /// What is known is of how casters were: they have moved, or let light through elsewhere.
   void forget();
+  /// The same, but that those casters without kMoves are as they were.
+  void forget_movers();
   /// Counts what was forgotten: equal numbers are equal casters.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
 
   [[nodiscard]] std::shared_ptr<const trace::RayScene> ray_scene() const;
-  [[nodiscard]] std::shared_ptr<const shadow::CasterTree> caster_tree(
-      shadow::CasterTree::Casters which) const;
+  /// Of opaque casters: those that stand, and those that move, where there are any.
+  [[nodiscard]] std::vector<std::shared_ptr<const shadow::CasterTree>> caster_trees() const;
+  [[nodiscard]] std::shared_ptr<const shadow::CasterTree> pane_tree() const;
   /// Which triangle lies across each edge. Valid until forget().
   [[nodiscard]] const frame::TriangleNeighbours* triangle_neighbours() const;
 
@@ -42,7 +46,7 @@ class CasterStructures {
   std::uint64_t revision_ = 0;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const trace::RayScene> rays_;
-  mutable std::shared_ptr<const shadow::CasterTree> casters_, panes_;
+  mutable std::shared_ptr<const shadow::CasterTree> standing_, moving_, panes_;
   mutable std::shared_ptr<const frame::MeshNeighbours>
       mesh_neighbours_;  // of meshes at rest: never forgotten
   mutable std::unique_ptr<const frame::TriangleNeighbours> neighbours_;

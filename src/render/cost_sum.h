@@ -17,6 +17,12 @@ inline void add_costs(RenderStatistics& sum, const RenderStatistics& one) {
   sum.triangles_drawn += one.triangles_drawn;
   sum.maps_drawn += one.maps_drawn;
   sum.maps_kept += one.maps_kept;
+  sum.map_reuse.maps_updated += one.map_reuse.maps_updated;
+  sum.map_reuse.tiles_kept += one.map_reuse.tiles_kept;
+  sum.map_reuse.tiles_updated += one.map_reuse.tiles_updated;
+  sum.map_reuse.tiles_drawn += one.map_reuse.tiles_drawn;
+  sum.map_reuse.triangles += one.map_reuse.triangles;
+  sum.map_reuse.moving_triangles += one.map_reuse.moving_triangles;
   sum.shadow_memory = one.shadow_memory;
   sum.silhouettes = one.silhouettes;
 }

@@ -1,9 +1,11 @@
 #include "render/depth_map_cache.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/stopwatch.h"
 #include "render/depth_map_painter.h"
+#include "render/tiles_in_view.h"
 #include "shadow/shadow_map.h"
 
 namespace laterna::render {
@@ -14,37 +16,25 @@ bool same_warp(const light::ShadowView& a, const light::ShadowView& b) {
   return a.warp->warped_from_world == b.warp->warped_from_world;
 }
 
-bool same_view(const light::ShadowView& a, const light::ShadowView& b) {
+// All but the near plane.
+bool same_picture(const light::ShadowView& a, const light::ShadowView& b) {
   const Projection& p = a.view.projection;
   const Projection& q = b.view.projection;
   return a.width == b.width && a.height == b.height && a.view.pose.position_ws == b.view.pose.position_ws &&
          a.view.pose.world_from_view_rotation == b.view.pose.world_from_view_rotation &&
          p.is_orthographic == q.is_orthographic && p.left == q.left && p.right == q.right &&
-         p.bottom == q.bottom && p.top == q.top && p.near == q.near && p.far == q.far && same_warp(a, b);
+         p.bottom == q.bottom && p.top == q.top && p.far == q.far && same_warp(a, b);
+}
+
+bool has_near_of(const light::ShadowView& a, const light::ShadowView& b) {
+  return a.view.projection.near == b.view.projection.near;
+}
+
+raster::RasterView raster_view(const light::ShadowView& shadow) {
+  return {shadow.view, shadow.width, shadow.height};
 }
 
 }  // namespace
-
-bool DepthMapKey::has_same_casters(const DepthMapKey& other) const {
-  return faces == other.faces && keeps_triangles == other.keeps_triangles &&
-         casters_revision == other.casters_revision;
-}
-
-bool DepthMapKey::operator==(const DepthMapKey& other) const {
-  return has_same_casters(other) &&
-         std::equal(views.begin(), views.end(), other.views.begin(), other.views.end(), same_view);
-}
-
-shadow::DepthMap make_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
-                                CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn) {
-  shadow::DepthMap map(raster::RasterView(shadow_view.view, shadow_view.width, shadow_view.height),
-                       keeps_triangles, std::move(outworn));
-  auto painter = std::make_unique<DepthMapPainter>(context.frame, context.bins, context.bins_owner,
-                                                   context.instruction_set, faces, shadow_view.warp);
-  context.times += painter->prepare(map.view(), context.pool);
-  map.set_painter(std::move(painter));
-  return map;
-}
 
 void draw_tiles(shadow::DepthMap& map, const TaskPool& pool, StageTimes& times,
                 const std::function<bool()>& asks_to_stop) {
@@ -62,9 +52,56 @@ void draw_tiles(shadow::DepthMap& map, const TaskPool& pool, StageTimes& times,
 
 shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowView& shadow_view,
                                 CasterFaces faces, bool keeps_triangles, shadow::DepthMap outworn) {
-  shadow::DepthMap map = make_depth_map(context, shadow_view, faces, keeps_triangles, std::move(outworn));
+  shadow::DepthMap map(raster_view(shadow_view), keeps_triangles, std::move(outworn));
+  const DepthMapPainter::Source source = {context.frame,           context.bins, context.bins_owner,
+                                          context.instruction_set, faces,        nullptr};
+  auto painter = std::make_unique<DepthMapPainter>(source, shadow_view.warp, false);
+  context.times += painter->prepare(map.view(), context.pool);
+  map.set_painter(std::move(painter));
   draw_tiles(map, context.pool, context.times, nullptr);
   return map;
+}
+
+DepthMapCache::KeptMap DepthMapCache::make(const light::ShadowView& view, const DepthMapKey& key,
+                                           const DrawContext& context) {
+  auto lease = outworn_.take();
+  *lease = shadow::DepthMap(raster_view(view), key.keeps_triangles, std::move(*lease));
+  const DepthMapPainter::Source source = {context.frame,           context.bins, context.bins_owner,
+                                          context.instruction_set, key.faces,    &work_};
+  auto painter = std::make_unique<DepthMapPainter>(source, view.warp, casters_.has_movers());
+  context.times += painter->prepare(lease->view(), context.pool);
+  DepthMapPainter* const is_painted_by = painter.get();
+  lease->set_painter(std::move(painter));
+  return {view, std::move(lease), is_painted_by, casters_.revision()};
+}
+
+// The near plane of a lamp stands before the nearest caster. Where that moves and nothing comes near the plane, the map stays
+// what it is.
+std::vector<DepthMapCache::KeptMap>::iterator DepthMapCache::find_view(std::vector<KeptMap>& maps,
+                                                                       const light::ShadowView& view,
+                                                                       const frame::Frame& frame) {
+  return std::ranges::find_if(maps, [&](KeptMap& kept) {
+    if (kept.map == nullptr || !same_picture(kept.view, view)) return false;
+    if (has_near_of(kept.view, view)) return true;
+    if (view.warp || view.view.projection.is_orthographic) return false;
+    const raster::RasterView moved = raster_view(view);
+    if (!is_clear_between(kept.map->view(), moved, frame)) return false;
+    kept.view = view;
+    kept.map->set_view(moved);
+    return true;
+  });
+}
+
+bool DepthMapCache::update(KeptMap& kept, Found& found) const {
+  if (kept.casters_revision != casters_.revision()) {
+    const auto changes = casters_.since(kept.casters_revision);
+    // What a warp leaves out depends on casters.
+    if (!changes || (kept.view.warp && !changes->empty())) return false;
+    kept.casters_revision = casters_.revision();
+    if (kept.painter->update(*kept.map, *changes)) ++found.updated;
+  }
+  found.tiles_kept += kept.map->tiles_drawn();
+  return true;
 }
 
 DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& key,
@@ -72,59 +109,72 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
                                          const std::function<bool()>& asks_to_stop) {
   std::unique_lock list_lock(mutex_);
   Entry& entry = entries_[light];  // stays where it is
+  entry.used = ++uses_;
   list_lock.unlock();
   const std::lock_guard lock(entry.mutex);
-  const auto settle = [&](shadow::DepthMap& map) {
-    const std::size_t bytes = map.working_bytes();
-    if (working_bytes + bytes <= kMaxWorkingBytes) {
+  // Where this ends with an exception, nothing is kept.
+  std::vector<KeptMap> before = std::exchange(entry.maps, {});
+  if (anew || entry.faces != key.faces || entry.keeps_triangles != key.keeps_triangles) before.clear();
+  Found found;
+  // Of cascades, those that the camera has not moved stay.
+  std::vector<KeptMap> maps(key.views.size());
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const auto kept = find_view(before, key.views[i], context.frame);
+    if (kept == before.end()) continue;
+    KeptMap taken = std::exchange(*kept, {});
+    if (update(taken, found)) maps[i] = std::move(taken);
+  }
+  before.clear();
+  entry.faces = key.faces;
+  entry.keeps_triangles = key.keeps_triangles;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    if (maps[i].map == nullptr) {
+      ++found.made;
+      DrawContext own = context;
+      own.bins_owner = 1 + shadow::kMostMaps * light + i;  // the camera's is 0
+      maps[i] = make(key.views[i], key, own);
+    }
+    shadow::DepthMap& map = *maps[i].map;
+    if (const std::size_t bytes = map.working_bytes(); working_bytes + bytes <= kMaxWorkingBytes) {
       working_bytes += bytes;
     } else {
       draw_tiles(map, context.pool, context.times, asks_to_stop);
     }
-  };
-  if (!anew && !entry.maps.empty() && entry.key == key) {
-    for (const auto& map : entry.maps) settle(*map);
-    return {entry.maps, 0};
-  }
-  // Of cascades, those that the camera has not moved stay.
-  const bool is_same_otherwise = !anew && entry.key.has_same_casters(key);
-  DepthMaps kept(key.views.size());
-  for (std::size_t i = 0; is_same_otherwise && i < kept.size(); ++i) {
-    for (std::size_t j = 0; j < entry.maps.size() && kept[i] == nullptr; ++j) {
-      if (same_view(key.views[i], entry.key.views[j])) kept[i] = entry.maps[j];
-    }
-  }
-  entry.maps.clear();
-  DepthMaps maps;
-  int made = 0;
-  for (std::size_t i = 0; i < key.views.size(); ++i) {
-    if (kept[i] != nullptr) {
-      settle(*kept[i]);
-      maps.push_back(std::move(kept[i]));
-      continue;
-    }
-    const light::ShadowView& view = key.views[i];
-    ++made;
-    auto lease = outworn_.take();
-    DrawContext own = context;
-    own.bins_owner = 1 + shadow::kMostMaps * light + maps.size();  // the camera's is 0
-    *lease = make_depth_map(own, view, key.faces, key.keeps_triangles, std::move(*lease));
-    settle(*lease);
-    maps.push_back(std::move(lease));
+    found.maps.push_back(maps[i].map);
   }
   outworn_.clear();
-  entry.key = key;
   entry.maps = std::move(maps);
-  return {entry.maps, made};
+  return found;
 }
 
-void DepthMapCache::rest() {
+void DepthMapCache::rest(std::size_t most_bytes) {
   const std::lock_guard list_lock(mutex_);
+  std::vector<Entry*> longest_unused;
+  std::size_t bytes = 0;
   for (auto& [light, entry] : entries_) {
-    const std::lock_guard lock(entry.mutex);
-    for (const auto& map : entry.maps) map->rest();
+    longest_unused.push_back(&entry);
+    for (const KeptMap& kept : entry.maps) {
+      if (kept.map->is_complete()) kept.map->rest();
+      bytes += kept.bytes();
+    }
+  }
+  std::ranges::sort(longest_unused, {}, &Entry::used);
+  // What is sorted is made again sooner than maps are.
+  for (Entry* entry : longest_unused) {
+    for (const KeptMap& kept : entry->maps) {
+      if (bytes <= most_bytes) break;
+      bytes -= kept.bytes();
+      kept.map->rest();
+      bytes += kept.bytes();
+    }
+  }
+  for (Entry* entry : longest_unused) {
+    if (bytes <= most_bytes) break;
+    for (const KeptMap& kept : entry->maps) bytes -= kept.bytes();
+    entry->maps.clear();
   }
   outworn_.clear();
+  kept_bytes_ = bytes;
 }
 
 }  // namespace laterna::render

@@ -35,6 +35,29 @@ shade::SampleOffset jitter_of(SampleIndex sample) {
   return {offset(SampleDimension::pixel_x), offset(SampleDimension::pixel_y)};
 }
 
+// What painters of maps do while a picture is drawn.
+class MapWorkMeter {
+ public:
+  explicit MapWorkMeter(const MapWork& work) : work_(work), before_(read()) {}
+  void report(RenderStatistics::MapReuse& reuse) const {
+    const Counts now = read();
+    reuse.tiles_drawn += now.tiles_drawn - before_.tiles_drawn;
+    reuse.tiles_updated += now.tiles_updated - before_.tiles_updated;
+    reuse.triangles += now.triangles - before_.triangles;
+    reuse.moving_triangles += now.moving_triangles - before_.moving_triangles;
+  }
+
+ private:
+  struct Counts {
+    std::uint64_t tiles_drawn, tiles_updated, triangles, moving_triangles;
+  };
+  [[nodiscard]] Counts read() const {
+    return {work_.tiles_drawn, work_.tiles_updated, work_.triangles, work_.moving_triangles};
+  }
+  const MapWork& work_;
+  Counts before_;
+};
+
 // Before so many pictures have been averaged, how they differ says little.
 constexpr int kFewestPictures = 8;
 
@@ -75,8 +98,8 @@ class PictureDrawer::Drawing {
  public:
   explicit Drawing(const PictureDrawer& of) : of_(of) { ++of_.pictures_drawn_now_; }
   ~Drawing() {
-    if (--of_.pictures_drawn_now_ == 0) of_.maps_.rest();
-    of_.bins_.trim(kIdleBinMemory);
+    if (--of_.pictures_drawn_now_ == 0) of_.let_caches_rest();
+    of_.bins_.trim(std::min<std::size_t>(kIdleBinMemory, of_.cache_bytes_));
   }
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;
@@ -84,6 +107,12 @@ class PictureDrawer::Drawing {
  private:
   const PictureDrawer& of_;
 };
+
+// Paraboloid maps have what others leave.
+void PictureDrawer::let_caches_rest() const {
+  maps_.rest(cache_bytes_);
+  paraboloids_.rest(cache_bytes_ - maps_.kept_bytes());
+}
 
 Result<void> PictureDrawer::load_environment(const RendererOptions& options) {
   if (!posed_.scene().environment) return {};
@@ -150,8 +179,8 @@ shade::ShaderJob PictureDrawer::make_job(const raster::RasterView& view, const R
   job.wanted = wanted_layers(settings);
   job.instruction_set = instruction_set_;
   const raster::RasterView::Ray ray = view.homogeneous_ray();
-  ShadowCasting casting({frame(), pool_, instruction_set_, bins_, maps_, posed_.casters(), view, settings,
-                         statistics, progress});
+  ShadowCasting casting({frame(), pool_, instruction_set_, bins_, maps_, paraboloids_, posed_.casters(), view,
+                         settings, statistics, progress});
   job.photographs = make_photograph_job(ray, settings, planned_picture.photographs, casting);
   job.decals = make_decals(ray, settings, planned_picture.decals, casting);
   add_lights(ray, settings, planned_picture.lights, casting, progress, job);
@@ -237,6 +266,7 @@ RenderStatistics PictureDrawer::draw_picture(const View& from, const RenderSetti
   Stopwatch watch;
   watch.start();
   RenderStatistics statistics;
+  const MapWorkMeter work(maps_.work());
   const PicturePlan plan = {
       light::make_light_plan(frame(), {settings.shadows, sample, &from}),
       light::make_photograph_plan(frame(), posed_.scene().photograph_settings.visibility),
@@ -249,6 +279,7 @@ RenderStatistics PictureDrawer::draw_picture(const View& from, const RenderSetti
   if (!progress.is_cancelled()) draw_bands(view, settings, job, writer, statistics, progress);
   for (std::size_t i = 0; i < job.lights.size(); ++i)
     report_drawn(plan.lights.lights[i], job.lights[i].shadow.get(), statistics);
+  work.report(statistics.map_reuse);
   statistics.total_ms = statistics.plan_ms + statistics.shadow_ms + watch.lap_ms();
   return statistics;
 }
@@ -294,7 +325,7 @@ Result<RenderStatistics> PictureDrawer::draw(const View& from, const RenderSetti
       PictureWriter::create(settings, destination.target, frame(), instruction_set_);
   if (!writer) return tl::unexpected(std::move(writer.error()));
 
-  const Drawing drawing(*this);
+  auto drawing = std::make_unique<const Drawing>(*this);
   ProgressReport report(progress, static_cast<std::size_t>(raster::tiles_across(settings.width)) *
                                       static_cast<std::size_t>(raster::tiles_across(settings.height)) *
                                       static_cast<std::size_t>(settings.accumulate));
@@ -303,6 +334,8 @@ Result<RenderStatistics> PictureDrawer::draw(const View& from, const RenderSetti
                                             : draw_mean(from, settings, destination, report);
   if (report.is_cancelled())
     return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
+  drawing.reset();
+  if (statistics) statistics->map_reuse.bytes = maps_.kept_bytes() + paraboloids_.kept_bytes();
   return statistics;
 }
 
@@ -337,7 +370,7 @@ LayeredImage PictureDrawer::draw_distances(const light::PlannedLight& planned,
                         planned.shadow_views[0], planned.settings.caster_faces, false, std::move(*map));
   statistics.shadow_ms = statistics.total_ms = watch.lap_ms();
   statistics.maps_drawn = 1;
-  bins_.trim(kIdleBinMemory);
+  bins_.trim(std::min<std::size_t>(kIdleBinMemory, cache_bytes_));
   return metres_of(*map);
 }
 

@@ -30,8 +30,14 @@ namespace laterna::render {
 class PictureDrawer {
  public:
   /// Both must outlive it.
-  PictureDrawer(const PosedScene& posed, const TaskPool& pool, InstructionSet instruction_set)
-      : posed_(posed), pool_(pool), instruction_set_(instruction_set) {}
+  PictureDrawer(const PosedScene& posed, const TaskPool& pool, InstructionSet instruction_set,
+                std::uint64_t cache_bytes)
+      : posed_(posed),
+        pool_(pool),
+        instruction_set_(instruction_set),
+        cache_bytes_(cache_bytes),
+        maps_(posed.caster_changes()),
+        paraboloids_(posed.caster_changes()) {}
 
   /// What shines from all around is made ready; nothing where nothing does.
   Result<void> load_environment(const RendererOptions& options);
@@ -64,7 +70,9 @@ class PictureDrawer {
     light::PhotographPlan photographs;
     std::vector<light::PlannedLight> decals;
   };
-  // While a picture is drawn. The last one out lets the shadow maps rest.
+  // Between pictures.
+  void let_caches_rest() const;
+  // While pictures are drawn. The last one out lets the shadow maps rest.
   class Drawing;
 
   [[nodiscard]] const frame::Frame& frame() const { return posed_.frame(); }
@@ -89,10 +97,12 @@ class PictureDrawer {
   const PosedScene& posed_;
   const TaskPool& pool_;
   InstructionSet instruction_set_;
+  std::uint64_t cache_bytes_;  // that are kept between pictures
   std::unique_ptr<const image::EnvironmentMap> environment_;
   std::unique_ptr<const shade::SplitSum> split_sum_;
   mutable BinsPool bins_;
   mutable DepthMapCache maps_;
+  mutable ParaboloidMapCache paraboloids_;
   mutable ReusePool<shadow::DepthMap> shown_maps_;  // whose memory draw_distances() draws into
   mutable std::atomic<int> pictures_drawn_now_ = 0;
   mutable std::mutex feathers_mutex_;

@@ -62,18 +62,28 @@ Result<void> PosedScene::rebuild() {
   Result<frame::Frame> built = frame::Frame::build(scene_, textures_, meshes_, pool_);
   if (!built) return tl::unexpected(std::move(built.error()));
   frame_ = std::move(*built);
-  casters_.forget();
+  forget_casters();
   return {};
+}
+
+void PosedScene::forget_casters() {
+  casters_.forget();
+  caster_changes_.forget(frame_);
 }
 
 // Everything that clips move, where it is at a time. Lights and cameras are still to be placed.
 Result<PoseChanges> PosedScene::pose(double seconds) {
   const PoseChanges changes = poses_.apply(scene_, seconds);
+  const CasterChanges::Before before = CasterChanges::look_at(frame_);
   bool casters_changed = false;
+  std::vector<bool> other_cut_outs;
   if (changes.materials) {
-    const std::vector<frame::Surface> before = frame_.surfaces;
+    const std::vector<frame::Surface> surfaces = frame_.surfaces;
     frame_.make_surfaces(scene_);
-    casters_changed = !std::equal(before.begin(), before.end(), frame_.surfaces.begin(), same_cut_outs);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      other_cut_outs.push_back(!same_cut_outs(surfaces[i], frame_.surfaces[i]));
+      casters_changed |= other_cut_outs.back();
+    }
   }
   if (changes.nodes) {
     const Result<frame::Reposed> reposed = frame_.repose(scene_, pool_);
@@ -82,7 +92,7 @@ Result<PoseChanges> PosedScene::pose(double seconds) {
       poses_.apply(scene_, time_);
       frame_.make_surfaces(scene_);
       static_cast<void>(frame_.repose(scene_, pool_));
-      casters_.forget();
+      forget_casters();
       return tl::unexpected(reposed.error());
     }
     posing_.primitives_posed += reposed->parts;
@@ -91,7 +101,11 @@ Result<PoseChanges> PosedScene::pose(double seconds) {
   }
   if (casters_changed) {
     ++posing_.casters_moved;
-    casters_.forget();
+    if (caster_changes_.note(before, other_cut_outs, frame_)) {
+      casters_.forget();
+    } else {
+      casters_.forget_movers();
+    }
   }
   return changes;
 }

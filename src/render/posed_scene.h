@@ -9,6 +9,7 @@
 #include "frame/frame.h"
 #include "frame/texture_library.h"
 #include "laterna/render.h"
+#include "render/caster_changes.h"
 #include "render/caster_structures.h"
 #include "scene/scene_pose.h"
 
@@ -33,6 +34,7 @@ class PosedScene {
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const frame::Frame& frame() const { return frame_; }
   [[nodiscard]] const CasterStructures& casters() const { return casters_; }
+  [[nodiscard]] const CasterChanges& caster_changes() const { return caster_changes_; }
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] const PosingStatistics& posing() const { return posing_; }
 
@@ -40,6 +42,7 @@ class PosedScene {
   void tell_warnings();
   Result<void> rebuild();
   Result<PoseChanges> pose(double seconds);
+  void forget_casters();
   [[nodiscard]] bool carries_mesh(int node) const;
 
   Scene scene_;  // as it is posed now
@@ -52,6 +55,7 @@ class PosedScene {
   frame::ClusteredMeshes meshes_;
   frame::Frame frame_;
   CasterStructures casters_;
+  CasterChanges caster_changes_;
 };
 
 }  // namespace laterna::render

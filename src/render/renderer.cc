@@ -28,7 +28,7 @@ struct Renderer::Implementation {
       : pool(options.threads),
         instruction_set(options.instruction_set.value_or(best_instruction_set())),
         posed(std::move(scene), options, pool),
-        drawer(posed, pool, instruction_set) {}
+        drawer(posed, pool, instruction_set, options.cache_bytes) {}
 
   /// The light of that name in a plan.
   [[nodiscard]] static Result<light::PlannedLight> find_light(light::LightPlan plan, const std::string& name);

@@ -39,6 +39,10 @@ Result<void> check_options(const RendererOptions& options) {
     return refuse("threads must be from 0 (one per processor) to " + std::to_string(kMaxThreads) + ", not " +
                   std::to_string(options.threads));
   }
+  if (options.cache_bytes > kMaxCacheBytes) {
+    return refuse("what is kept between pictures may take from 0 to " + std::to_string(kMaxCacheBytes) +
+                  " bytes, not " + std::to_string(options.cache_bytes));
+  }
   if (!options.instruction_set) return {};
   const std::vector<InstructionSet> known = supported_instruction_sets();
   if (std::find(known.begin(), known.end(), *options.instruction_set) != known.end()) return {};

@@ -29,9 +29,8 @@ std::unique_ptr<shadow::PaneFinder> ShadowCasting::make_panes(const light::Plann
   if (planned.technique == ShadowTechnique::raytraced) {
     return std::make_unique<shadow::RayTracedPanes>(planned, context_.frame, context_.casters.ray_scene());
   }
-  return std::make_unique<shadow::ExactPanes>(
-      planned, context_.frame, context_.casters.caster_tree(shadow::CasterTree::Casters::blended),
-      context_.instruction_set);
+  return std::make_unique<shadow::ExactPanes>(planned, context_.frame, context_.casters.pane_tree(),
+                                              context_.instruction_set);
 }
 
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light::PlannedLight& planned,
@@ -62,15 +61,17 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light:
 DepthMaps ShadowCasting::find_maps(const light::PlannedLight& planned, std::size_t index,
                                    bool keeps_triangles) {
   ProgressReport& progress = context_.progress;
-  const DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces, keeps_triangles,
-                           context_.casters.revision()};
+  const DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces, keeps_triangles};
   const DepthMapCache::Found found = context_.maps.find(
       index, key,
       {context_.frame, context_.pool, context_.bins, context_.instruction_set,
        context_.statistics.map_stages},
       !context_.settings.keep_shadow_maps, working_bytes_, [&progress] { return progress.asks_to_stop(); });
-  context_.statistics.maps_drawn += found.made;
-  context_.statistics.maps_kept += static_cast<int>(found.maps.size()) - found.made;
+  const int redone = found.made + found.updated;
+  context_.statistics.maps_drawn += redone;
+  context_.statistics.maps_kept += static_cast<int>(found.maps.size()) - redone;
+  context_.statistics.map_reuse.maps_updated += found.updated;
+  context_.statistics.map_reuse.tiles_kept += found.tiles_kept;
   return found.maps;
 }
 
@@ -90,7 +91,7 @@ bool ShadowCasting::complete(const DepthMaps& maps) {
 
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::PlannedLight& planned,
                                                                  std::size_t index) {
-  if (planned.settings.layout == ShadowLayout::dual_paraboloid) return make_paraboloids(planned);
+  if (planned.settings.layout == ShadowLayout::dual_paraboloid) return make_paraboloids(planned, index);
   ProgressReport& progress = context_.progress;
   const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
   report_memory(planned, maps, 0);
@@ -99,26 +100,31 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::Pl
       context_.settings.samples, context_.instruction_set, [&progress] { return progress.asks_to_stop(); });
 }
 
-std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_paraboloids(const light::PlannedLight& planned) {
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_paraboloids(const light::PlannedLight& planned,
+                                                                         std::size_t index) {
   ProgressReport& progress = context_.progress;
   Stopwatch watch;
   watch.start();
-  auto technique = std::make_unique<shadow::ParaboloidShadow>(
-      planned, context_.frame, find_neighbours(planned), context_.settings.samples, context_.pool,
-      [&progress] { return progress.asks_to_stop(); });
+  const ParaboloidMapCache::Found found = context_.paraboloids.find(
+      index, shadow::ParaboloidShadow::pair_of(planned), planned.settings.caster_faces, context_.frame,
+      context_.pool, !context_.settings.keep_shadow_maps, [&progress] { return progress.asks_to_stop(); });
   context_.statistics.map_stages[Stage::raster] += watch.lap_ms();
-  context_.statistics.maps_drawn += 2;
+  (found.is_made || found.is_updated ? context_.statistics.maps_drawn : context_.statistics.maps_kept) += 2;
+  context_.statistics.map_reuse.maps_updated += found.is_updated ? 2 : 0;
+  auto technique = std::make_unique<shadow::ParaboloidShadow>(
+      planned, found.map, context_.frame, find_neighbours(planned), context_.settings.samples);
   report_memory(planned, 2, technique->memory_bytes());
   return technique;
 }
 
-// The tree is all lights': the first is said to hold it.
+// The trees are all lights': the first is said to hold them.
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_exact(const light::PlannedLight& planned) {
-  std::shared_ptr<const shadow::CasterTree> tree =
-      context_.casters.caster_tree(shadow::CasterTree::Casters::opaque);
-  report_memory(planned, 0, has_reported_tree_ ? 0 : tree->memory_bytes());
+  std::vector<std::shared_ptr<const shadow::CasterTree>> trees = context_.casters.caster_trees();
+  std::size_t bytes = 0;
+  for (const auto& tree : trees) bytes += tree->memory_bytes();
+  report_memory(planned, 0, has_reported_tree_ ? 0 : bytes);
   has_reported_tree_ = true;
-  return std::make_unique<shadow::ExactShadow>(planned, context_.frame, std::move(tree),
+  return std::make_unique<shadow::ExactShadow>(planned, context_.frame, std::move(trees),
                                                context_.instruction_set);
 }
 

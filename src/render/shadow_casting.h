@@ -8,6 +8,7 @@
 #include "light/light_plan.h"
 #include "render/caster_structures.h"
 #include "render/depth_map_cache.h"
+#include "render/paraboloid_map_cache.h"
 #include "render/progress_report.h"
 #include "shadow/caster_tree.h"
 #include "shadow/panes.h"
@@ -23,6 +24,7 @@ struct CastingContext {
   InstructionSet instruction_set;
   BinsPool& bins;
   DepthMapCache& maps;
+  ParaboloidMapCache& paraboloids;
   const CasterStructures& casters;
   const raster::RasterView& camera;
   const RenderSettings& settings;
@@ -44,7 +46,8 @@ class ShadowCasting {
   [[nodiscard]] std::unique_ptr<shadow::PaneFinder> make_panes(const light::PlannedLight& planned);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_map(const light::PlannedLight& planned,
                                                                   std::size_t index);
-  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_paraboloids(const light::PlannedLight& planned);
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_paraboloids(const light::PlannedLight& planned,
+                                                                          std::size_t index);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_exact(const light::PlannedLight& planned);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_volume(const light::PlannedLight& planned);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_soft_map(const light::PlannedLight& planned,

@@ -53,11 +53,13 @@ constexpr int kDeepestSurvey = 60;
 // splits make one node.
 class CasterTree::Builder {
  public:
-  Builder(const frame::Frame& frame, Casters casters, CasterTree& tree) : frame_(frame), tree_(tree) {
+  Builder(const frame::Frame& frame, CasterTree& tree) : frame_(frame), tree_(tree) {}
+
+  void add(Casters casters, std::uint32_t mask, std::uint32_t flags) {
     const auto is_asked_for = casters == Casters::blended ? is_blended_caster : is_opaque_caster;
-    for (std::uint32_t c = 0; c < frame.clusters.size(); ++c) {
-      const Cluster& cluster = frame.clusters[c];
-      if (!is_asked_for(cluster)) continue;
+    for (std::uint32_t c = 0; c < frame_.clusters.size(); ++c) {
+      const Cluster& cluster = frame_.clusters[c];
+      if (!is_asked_for(cluster) || (cluster.flags & mask) != flags) continue;
       for (std::uint32_t t = 0; t < cluster.triangle_count; ++t) add(c << kTriangleBits | t);
     }
   }
@@ -219,6 +221,10 @@ class CasterTree::Builder {
   std::vector<Caster> casters_;
 };
 
-CasterTree::CasterTree(const frame::Frame& frame, Casters casters) { Builder(frame, casters, *this).build(); }
+CasterTree::CasterTree(const frame::Frame& frame, Casters casters, std::uint32_t mask, std::uint32_t flags) {
+  Builder builder(frame, *this);
+  builder.add(casters, mask, flags);
+  builder.build();
+}
 
 }  // namespace laterna::shadow

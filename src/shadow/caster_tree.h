@@ -36,7 +36,8 @@ class CasterTree {
  public:
   /// Of the clusters that cast shadows: those that are not blended, or those that are.
   enum class Casters : std::uint8_t { opaque, blended };
-  CasterTree(const frame::Frame& frame, Casters casters);
+  /// Of those, the clusters whose flags, where `mask` has bits, are `flags`.
+  CasterTree(const frame::Frame& frame, Casters casters, std::uint32_t mask = 0, std::uint32_t flags = 0);
 
   [[nodiscard]] bool is_empty() const { return packets_.empty(); }
   /// The first is the root.

@@ -26,4 +26,10 @@ void DepthMap::require(int tile_x, int tile_y) {
   states_->missing.fetch_sub(1, std::memory_order_acq_rel);
 }
 
+void DepthMap::forget(int tile_x, int tile_y) {
+  if (!is_drawn(tile_x, tile_y)) return;
+  states_->of_tile[tile_number(tile_x, tile_y)].store(kMissing, std::memory_order_release);
+  states_->missing.fetch_add(1, std::memory_order_acq_rel);
+}
+
 }  // namespace laterna::shadow

@@ -70,6 +70,15 @@ class DepthMap {
   }
   /// Returns when the tile is drawn, by this thread or another.
   void require(int tile_x, int tile_y);
+  /// What the tile shows is no longer so: it is drawn again when it is asked for. Texels stay as they are until then. Only
+  /// with a painter, and while nobody reads the map.
+  void forget(int tile_x, int tile_y);
+  [[nodiscard]] std::size_t tiles_drawn() const {
+    return states_ == nullptr ? tile_count()
+                              : tile_count() - states_->missing.load(std::memory_order_acquire);
+  }
+  /// The same picture, seen through a view with another near plane, while nobody reads the map.
+  void set_view(const raster::RasterView& view) { view_ = view; }
   /// See TilePainter.
   void rest() {
     if (painter_ != nullptr) painter_->rest();

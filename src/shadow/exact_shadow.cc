@@ -5,17 +5,20 @@
 namespace laterna::shadow {
 
 ExactShadow::ExactShadow(const light::PlannedLight& planned, const frame::Frame& frame,
-                         std::shared_ptr<const CasterTree> tree, InstructionSet set)
-    : tree_(std::move(tree)),
-      test_{&frame, tree_.get(), light::LightRays(*planned.placed), planned.number},
-      set_(set) {}
+                         std::vector<std::shared_ptr<const CasterTree>> trees, InstructionSet set)
+    : trees_(std::move(trees)), set_(set) {
+  for (const auto& tree : trees_)
+    tests_.push_back({&frame, tree.get(), light::LightRays(*planned.placed), planned.number});
+}
 
 double ExactShadow::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                                  Arrival& arrival) const {
   arrival.is_tinted = false;
   std::array<std::uint16_t, kMaxGroups> lit{};
   std::copy(wanted.begin(), wanted.end(), lit.begin());
-  keep_lit_for(set_)(test_, samples, std::span(lit).first(samples.group_count));
+  // A sample is dark where any caster stands in its way, so each tree takes from what those before it left lit.
+  for (const ExactShadowTest& test : tests_)
+    keep_lit_for(set_)(test, samples, std::span(lit).first(samples.group_count));
   for (std::size_t i = 0; i < samples.group_count * kGroupSize; ++i) {
     arrival.alpha[i] = static_cast<float>(lit[i / kGroupSize] >> (i % kGroupSize) & 1U);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "light/light_plan.h"
 #include "shadow/caster_tree.h"
@@ -31,14 +32,15 @@ FindPanes find_panes_for(InstructionSet set);
 
 class ExactShadow final : public ShadowTechnique {
  public:
+  /// `trees`: of casters that are in no other of them.
   ExactShadow(const light::PlannedLight& planned, const frame::Frame& frame,
-              std::shared_ptr<const CasterTree> tree, InstructionSet set);
+              std::vector<std::shared_ptr<const CasterTree>> trees, InstructionSet set);
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                       Arrival& arrival) const override;
 
  private:
-  std::shared_ptr<const CasterTree> tree_;
-  ExactShadowTest test_;
+  std::vector<std::shared_ptr<const CasterTree>> trees_;
+  std::vector<ExactShadowTest> tests_;  // one for each tree
   InstructionSet set_;
 };
 

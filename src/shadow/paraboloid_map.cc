@@ -58,8 +58,11 @@ double LocalTriangle::volume() const { return glm::dot(corner[0], glm::cross(cor
 
 class ParaboloidMap::Painter {
  public:
-  Painter(const frame::Frame& frame, const ParaboloidPair& pair, CasterFaces faces)
-      : frame_(frame), pair_(pair), faces_(faces), squares_((pair.side() + kSquareSide - 1) / kSquareSide) {}
+  Painter(const frame::Frame& frame, const ParaboloidPair& pair, const Casters& casters)
+      : frame_(frame),
+        pair_(pair),
+        casters_(casters),
+        squares_((pair.side() + kSquareSide - 1) / kSquareSide) {}
 
   [[nodiscard]] std::size_t band_count() const { return 2 * static_cast<std::size_t>(squares_); }
 
@@ -147,13 +150,13 @@ class ParaboloidMap::Painter {
 
   void find_entries(std::size_t c, std::vector<Entry>& entries) const {
     const Cluster& cluster = frame_.clusters[c];
-    if (!is_opaque_caster(cluster)) return;
+    if (!is_opaque_caster(cluster) || (cluster.flags & casters_.mask) != casters_.flags) return;
     for (std::uint32_t k = 0; k < cluster.triangle_count; ++k) {
       const TriangleId id = static_cast<TriangleId>(c << kTriangleBits) | k;
       const LocalTriangle triangle(frame_, id, pair_);
       const double volume = triangle.volume();
       // Seen edge-on it hides nothing.
-      if (volume == 0 || (faces_ == CasterFaces::back_only && volume > 0)) continue;
+      if (volume == 0 || (casters_.faces == CasterFaces::back_only && volume > 0)) continue;
       for (int map = 0; map < 2; ++map) {
         const Texels texels = find_texels(triangle, map);
         if (!texels.is_empty()) entries.push_back({id, map, texels});
@@ -203,7 +206,10 @@ class ParaboloidMap::Painter {
         // The direction is the corners' sum with these weights over the volume: on the plane where they add up to 1.
         const double sum = a + b + c;
         const auto reverse = static_cast<float>(sum * edges.inverse_volume);
-        if (!(reverse > texel_row[x].reverse_distance)) continue;  // at equal distance the smaller id
+        const Texel& seen = texel_row[x];
+        const bool is_before = reverse > seen.reverse_distance ||
+                               (reverse == seen.reverse_distance && id < seen.id && seen.id != kNoTriangle);
+        if (!is_before) continue;
         if (frame::is_hole(frame_, id, static_cast<float>(b / sum), static_cast<float>(c / sum))) continue;
         texel_row[x] = {reverse, id};
       }
@@ -212,17 +218,19 @@ class ParaboloidMap::Painter {
 
   const frame::Frame& frame_;
   const ParaboloidPair& pair_;
-  CasterFaces faces_;
+  Casters casters_;
   int squares_;  // in a row
   std::vector<std::vector<Entry>> bands_;
 };
 
-ParaboloidMap::ParaboloidMap(const frame::Frame& frame, const ParaboloidPair& pair, CasterFaces faces,
-                             const TaskPool& pool, const std::function<bool()>& asks_to_stop)
+ParaboloidMap::ParaboloidMap(const frame::Frame& frame, const ParaboloidPair& pair, const Casters& casters,
+                             const ParaboloidMap* under, const TaskPool& pool,
+                             const std::function<bool()>& asks_to_stop)
     : pair_(pair) {
   for (std::vector<Texel>& texels : texels_)
     texels.resize(static_cast<std::size_t>(pair_.side()) * static_cast<std::size_t>(pair_.side()));
-  Painter painter(frame, pair_, faces);
+  if (under != nullptr) texels_ = under->texels_;
+  Painter painter(frame, pair_, casters);
   painter.bin(pool);
   pool.for_each(painter.band_count(), [&](std::size_t band, int) {
     if (!asks_to_stop()) painter.draw_band(band, texels_[2 * band / painter.band_count()]);

@@ -60,6 +60,7 @@ class ParaboloidPair {
   /// Texels that may see some of the cone about `axis` (unit, local) with this cosine of its half angle, at least 0.
   [[nodiscard]] Texels find_cone(const glm::dvec3& axis, double cosine, int map) const;
   [[nodiscard]] Texels all_texels() const { return {0, side_, 0, side_}; }
+  bool operator==(const ParaboloidPair&) const = default;
 
  private:
   glm::dvec3 eye_ws_;
@@ -86,11 +87,16 @@ class ParaboloidMap {
     TriangleId id = kNoTriangle;
   };
 
-  /// Draws both at once. Straight edges are curves here, so nothing is drawn vertex by vertex: each texel's ray is tested
+  /// Of opaque casters those whose clusters' flags, where `mask` has bits, are `flags`.
+  struct Casters {
+    CasterFaces faces = CasterFaces::both;
+    std::uint32_t mask = 0, flags = 0;
+  };
+  /// Draws both at once, over a map of other casters seen by the same pair where `under` is one: as if all were drawn at once. Straight edges are curves here, so nothing is drawn vertex by vertex: each texel's ray is tested
   /// against planes through the light and the triangle's edges, in double precision, and none passes between two triangles.
   /// Once `asks_to_stop` what is left stays empty.
-  ParaboloidMap(const frame::Frame& frame, const ParaboloidPair& pair, CasterFaces faces,
-                const TaskPool& pool, const std::function<bool()>& asks_to_stop);
+  ParaboloidMap(const frame::Frame& frame, const ParaboloidPair& pair, const Casters& casters,
+                const ParaboloidMap* under, const TaskPool& pool, const std::function<bool()>& asks_to_stop);
 
   [[nodiscard]] const ParaboloidPair& pair() const { return pair_; }
   /// Beyond the map's sides, the nearest that it has.

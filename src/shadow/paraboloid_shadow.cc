@@ -78,15 +78,17 @@ struct ParaboloidShadow::Suspects {
   }
 };
 
-ParaboloidShadow::ParaboloidShadow(const light::PlannedLight& planned, const frame::Frame& frame,
-                                   const frame::TriangleNeighbours* neighbours, int samples_per_pixel,
-                                   const TaskPool& pool, const std::function<bool()>& asks_to_stop)
+ParaboloidPair ParaboloidShadow::pair_of(const light::PlannedLight& planned) {
+  return {planned.placed->pose, planned.settings.resolution, border_of(planned.settings)};
+}
+
+ParaboloidShadow::ParaboloidShadow(const light::PlannedLight& planned,
+                                   std::shared_ptr<const ParaboloidMap> map, const frame::Frame& frame,
+                                   const frame::TriangleNeighbours* neighbours, int samples_per_pixel)
     : frame_(frame),
       neighbours_(neighbours),
       light_(*planned.placed),
-      map_(frame,
-           ParaboloidPair(planned.placed->pose, planned.settings.resolution, border_of(planned.settings)),
-           planned.settings.caster_faces, pool, asks_to_stop),
+      map_(std::move(map)),
       filter_(filter_of(planned.settings)),
       bias_(bias_of(planned.settings)),
       kernel_(planned.settings.kernel),
@@ -110,7 +112,7 @@ double ParaboloidShadow::find_arrival(const SurfaceSamples& samples, std::span<c
 
 ParaboloidShadow::Receiver ParaboloidShadow::find_receiver(const SurfaceSamples& s, std::size_t i) const {
   constexpr double kLeastDistance = 1e-30;
-  const ParaboloidPair& pair = map_.pair();
+  const ParaboloidPair& pair = map_->pair();
   const glm::dvec3 place = pair.to_eye({s.x_ws[i], s.y_ws[i], s.z_ws[i]});
   const double distance = std::max(glm::length(place), kLeastDistance);
   const glm::dvec3 way = place / distance;
@@ -136,10 +138,10 @@ ParaboloidShadow::Receiver ParaboloidShadow::find_receiver(const SurfaceSamples&
 }
 
 ParaboloidShadow::Tap ParaboloidShadow::tap(const Receiver& r, int x, int y) const {
-  const ParaboloidMap::Texel& texel = map_.at(r.map, x, y);
+  const ParaboloidMap::Texel& texel = map_->at(r.map, x, y);
   double on_plane = r.reverse;
   if (bias_.uses_receiver_plane)
-    on_plane = glm::dot(r.plane, map_.pair().direction_of({x + 0.5, y + 0.5}, r.map));
+    on_plane = glm::dot(r.plane, map_->pair().direction_of({x + 0.5, y + 0.5}, r.map));
   return {texel.reverse_distance, on_plane, texel.id};
 }
 
@@ -215,7 +217,7 @@ double ParaboloidShadow::refined(const SurfaceSamples& s, std::size_t i) const {
   bool is_dark = is_blocked(centre, nearest, suspects);
   double unsure = 0;  // weight of texels that saw, far in front, what is too small to be sure of
   if (!is_dark) {
-    const glm::dvec3 place = map_.pair().to_eye(glm::dvec3(centre));
+    const glm::dvec3 place = map_->pair().to_eye(glm::dvec3(centre));
     const std::size_t seen = suspects.count;
     for (std::size_t k = 0; k < seen; ++k) {
       const bool is_settled = walk_on(suspects.id[k], receiver.id, place, suspects);
@@ -244,7 +246,7 @@ bool ParaboloidShadow::walk_on(TriangleId start, TriangleId own, const glm::dvec
   if (neighbours_ == nullptr) return false;
   TriangleId id = start, from = start;
   for (int step = 0; step < kMostSteps; ++step) {
-    const LocalTriangle t(frame_, id, map_.pair());
+    const LocalTriangle t(frame_, id, map_->pair());
     const double sign = t.volume() < 0 ? -1 : 1;
     const auto weight = [&](std::size_t a, std::size_t b) {
       return sign * glm::dot(place, glm::cross(t.corner[a], t.corner[b]));
@@ -294,11 +296,11 @@ bool ParaboloidShadow::is_blocked(const glm::vec3& position_ws, float nearest,
 
 // By the solid angle of a triangle that is small.
 bool ParaboloidShadow::is_small(TriangleId id) const {
-  const LocalTriangle t(frame_, id, map_.pair());
+  const LocalTriangle t(frame_, id, map_->pair());
   const glm::dvec3 middle = (t.corner[0] + t.corner[1] + t.corner[2]) / 3.0;
   const double distance = glm::length(middle);
   if (distance == 0) return false;
-  const double texel = map_.pair().texel_angle(middle / distance);
+  const double texel = map_->pair().texel_angle(middle / distance);
   return std::abs(t.volume()) < 2 * kSmallTexels * texel * texel * distance * distance * distance;
 }
 

@@ -2,6 +2,8 @@
 // sources, 2002.
 #pragma once
 
+#include <memory>
+
 #include "frame/triangle_neighbours.h"
 #include "shadow/exact_crossing.h"
 #include "shadow/paraboloid_map.h"
@@ -13,15 +15,17 @@ namespace laterna::shadow {
 /// In double precision throughout, and so the same for every instruction set.
 class ParaboloidShadow final : public ShadowTechnique {
  public:
-  /// Draws the maps. `neighbours`: of the frame, or null; both outlive this.
-  ParaboloidShadow(const light::PlannedLight& planned, const frame::Frame& frame,
-                   const frame::TriangleNeighbours* neighbours, int samples_per_pixel, const TaskPool& pool,
-                   const std::function<bool()>& asks_to_stop);
+  /// Where its maps look and how finely.
+  static ParaboloidPair pair_of(const light::PlannedLight& planned);
+  /// `map`: of that pair. `neighbours`: of the frame, or null; both outlive this.
+  ParaboloidShadow(const light::PlannedLight& planned, std::shared_ptr<const ParaboloidMap> map,
+                   const frame::Frame& frame, const frame::TriangleNeighbours* neighbours,
+                   int samples_per_pixel);
 
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                       Arrival& arrival) const override;
 
-  [[nodiscard]] std::size_t memory_bytes() const { return map_.memory_bytes(); }
+  [[nodiscard]] std::size_t memory_bytes() const { return map_->memory_bytes(); }
 
  private:
   struct Receiver;
@@ -42,7 +46,7 @@ class ParaboloidShadow final : public ShadowTechnique {
   const frame::Frame& frame_;
   const frame::TriangleNeighbours* neighbours_;  // null: not known
   light::LightRays light_;
-  ParaboloidMap map_;
+  std::shared_ptr<const ParaboloidMap> map_;
   ShadowFilter filter_;
   ShadowBias bias_;
   int kernel_;

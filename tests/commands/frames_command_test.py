@@ -110,6 +110,24 @@ class Frames(unittest.TestCase):
         self.assertEqual(json.loads(done.stdout)[0]["time_s"], 1001 * 1001 / 30000)
         self.assertEqual(self.names(".png"), ["x1001.png"])
 
+    def test_what_is_kept_between_frames_is_told_and_limited(self):
+        frames = ("--frames", "0:2", "--fps", "10", "-o", str(self.at / "k#.exr"), "--json")
+        kept, none = (json.loads(self.render(*frames, "--cache-memory", megabytes).stdout) for megabytes in ("64", "0"))
+        self.assertEqual([p["maps_drawn"] for p in kept], [1, 0, 0])
+        self.assertEqual([p["maps_drawn"] for p in none], [1, 1, 1])
+        # 256 × 256 texels of 8 bytes.
+        self.assertTrue(all(256 * 256 * 8 <= p["map_reuse"]["bytes"] <= 64 << 20 for p in kept))
+        self.assertEqual([p["map_reuse"]["bytes"] for p in none], [0, 0, 0])
+        self.assertGreater(kept[0]["map_reuse"]["tiles_drawn"], 0)
+        self.assertGreater(kept[0]["map_reuse"]["triangles"], 0)
+        self.assertEqual([p["map_reuse"]["tiles_drawn"] for p in kept[1:]], [0, 0])
+        self.assertEqual({p["map_reuse"]["tiles_kept"] for p in kept[1:]}, {kept[0]["map_reuse"]["tiles_drawn"]})
+        for wrong in ("-1", "1048577", "much"):
+            done = self.render(*frames, "--cache-memory", wrong)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("--cache-memory", done.stderr)
+            self.assertIn(wrong, done.stderr)
+
     def test_paths_clips_and_turntables(self):
         """Cameras move along their paths; frames of either are the stills of their times."""
         rig = json.loads(json.dumps(RIG))

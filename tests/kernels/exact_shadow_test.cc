@@ -75,7 +75,8 @@ std::vector<float> arrival(const reference::OwnedFrame& owned, const SurfaceSamp
                            InstructionSet set, std::size_t light = 0) {
   const light::LightPlan plan = light::make_light_plan(owned.frame, {laterna::ShadowTechnique::exact, {}});
   const ExactShadow shadow(plan.lights.at(light), owned.frame,
-                           std::make_shared<const CasterTree>(owned.frame, CasterTree::Casters::opaque), set);
+                           {std::make_shared<const CasterTree>(owned.frame, CasterTree::Casters::opaque)},
+                           set);
   auto arrival = std::make_unique<Arrival>();
   shadow.find_arrival(samples, std::span(samples.active).first(samples.group_count), *arrival);
   EXPECT_FALSE(arrival->is_tinted);
