@@ -1,6 +1,10 @@
 // Bentley, Two shadow rendering algorithms, 1995 (document 004).
+#include <algorithm>
 #include <glm/glm.hpp>
+#include <optional>
+#include <utility>
 
+#include "laterna/bake.h"
 #include "paintings.h"
 #include "sets.h"
 
@@ -137,6 +141,19 @@ void draw_fudge(Sitting& sitting) {
   sitting.picture("The same map, its fudge factor found from each surface's slope and texel.", shot);
 }
 
+/// Light maps of all that lamps throw and surfaces reflect, instead of lamps and ambient light.
+void draw_radiosity(Sitting& sitting, Shot shot) {
+  shot.scene.ambient = glm::vec3(0);
+  BakeSettings settings;
+  settings.density = std::max(2.0, 24 * sitting.scale());
+  settings.interreflection = RadiositySettings{};
+  std::optional<BakedScene> baked = sitting.accept(bake_light(std::move(shot.scene), settings));
+  if (!baked) return;
+  shot.scene = std::move(baked->scene);
+  sitting.picture("Radiosity: no ambient light, but what surfaces reflect onto each other.",
+                  shot.with(ShadowTechnique::none));
+}
+
 void draw_families(Sitting& sitting) {
   Shot shot = solids_set();
   add_two_lamps(shot.scene);
@@ -146,6 +163,7 @@ void draw_families(Sitting& sitting) {
   sitting.picture("Shadow volumes.", shot.with(ShadowTechnique::volume));
   sitting.picture("Projected silhouettes, the technique of Chen and Tung, for comparison.",
                   shot.with(ShadowTechnique::silhouette));
+  draw_radiosity(sitting, std::move(shot));
 }
 
 constexpr Figure kFigures[] = {
@@ -213,14 +231,18 @@ constexpr Figure kFigures[] = {
      "\"shadow\": {\"resolution\": 256, \"filter\": \"nearest\", \"constant_bias\": 0.05, \"slope_bias\": 0}",
      draw_fudge},
     {"families", "The families of shadow algorithms", "Bentley, the list of methods",
-     "Bentley's methods on one scene with two lamps. The sixth, radiosity, is not drawn: it needs light that "
-     "is "
-     "reflected from surface to surface, which Laterna does not follow yet.",
+     "Bentley's methods on one scene with two lamps. Radiosity alone follows light from surface to surface: "
+     "where the others add the same ambient light everywhere, undersides are lit by the tiles below them, "
+     "and "
+     "creases are dark.",
      "Ground polygons reach only the floor, and silhouettes know no depth within an object, so nothing "
      "shadows itself; "
-     "the other three agree but for pixels at edges.",
+     "the next three agree but for pixels at edges. Radiosity knows matt surfaces only, and shadows are as "
+     "sharp as luxels are small.",
      "laterna render scene.glb --rig lamps.json --shadows map -o map.png\n"
-     "and so on with ground, raytraced, volume and silhouette",
+     "and so on with ground, raytraced, volume and silhouette\n"
+     "laterna bake scene.glb --rig lamps.json --bounces 100 -o baked.glb\n"
+     "laterna render baked.glb -o radiosity.png",
      draw_families},
 };
 
