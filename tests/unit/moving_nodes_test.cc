@@ -68,7 +68,7 @@ TEST(NodePaths, RotationsGoOnAndNumbersMayBeInSomeKeysOnly) {
   for (const char* interpolation : {"linear", "smooth"}) {
     const Scene scene = with_rig(folder, kite(),
                                  std::string(R"([{"name": "kite", "path": {"interpolation": ")") +
-                                     interpolation + R"(", )" + keys + "}}])")
+                                     interpolation + R"(", )" + keys + "}}]")
                             .value();
     const glm::dmat4 quarter = place_of(scene, "kite", 1);
     EXPECT_NEAR(quarter[0].z, -2, 1e-12) << "X has turned to -Z; the scale is half way from 1 to 3";
