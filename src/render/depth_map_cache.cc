@@ -114,15 +114,19 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
   const std::lock_guard lock(entry.mutex);
   // Where this ends with an exception, nothing is kept.
   std::vector<KeptMap> before = std::exchange(entry.maps, {});
-  if (anew || entry.faces != key.faces || entry.keeps_triangles != key.keeps_triangles) before.clear();
+  const bool may_stay = !anew && entry.faces == key.faces && entry.keeps_triangles == key.keeps_triangles;
   Found found;
   // Of cascades, those that the camera has not moved stay.
   std::vector<KeptMap> maps(key.views.size());
-  for (std::size_t i = 0; i < maps.size(); ++i) {
+  for (std::size_t i = 0; may_stay && i < maps.size(); ++i) {
     const auto kept = find_view(before, key.views[i], context.frame);
     if (kept == before.end()) continue;
     KeptMap taken = std::exchange(*kept, {});
     if (update(taken, found)) maps[i] = std::move(taken);
+  }
+  // Sorted casters that nobody else draws from go back to their owners' places first.
+  for (const KeptMap& outworn : before) {
+    if (outworn.map != nullptr && outworn.map.use_count() == 1) outworn.map->rest();
   }
   before.clear();
   entry.faces = key.faces;
@@ -147,31 +151,33 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
   return found;
 }
 
+// Lists would take memory, of which there may be none left.
 void DepthMapCache::rest(std::size_t most_bytes) {
   const std::lock_guard list_lock(mutex_);
-  std::vector<Entry*> longest_unused;
   std::size_t bytes = 0;
   for (auto& [light, entry] : entries_) {
-    longest_unused.push_back(&entry);
     for (const KeptMap& kept : entry.maps) {
       if (kept.map->is_complete()) kept.map->rest();
       bytes += kept.bytes();
     }
   }
-  std::ranges::sort(longest_unused, {}, &Entry::used);
   // What is sorted is made again sooner than maps are.
-  for (Entry* entry : longest_unused) {
-    for (const KeptMap& kept : entry->maps) {
+  for (auto& [light, entry] : entries_) {
+    for (const KeptMap& kept : entry.maps) {
       if (bytes <= most_bytes) break;
       bytes -= kept.bytes();
       kept.map->rest();
       bytes += kept.bytes();
     }
   }
-  for (Entry* entry : longest_unused) {
-    if (bytes <= most_bytes) break;
-    for (const KeptMap& kept : entry->maps) bytes -= kept.bytes();
-    entry->maps.clear();
+  while (bytes > most_bytes) {
+    Entry* longest_unused = nullptr;
+    for (auto& [light, entry] : entries_) {
+      const bool is_older = longest_unused == nullptr || entry.used < longest_unused->used;
+      if (!entry.maps.empty() && is_older) longest_unused = &entry;
+    }
+    for (const KeptMap& kept : longest_unused->maps) bytes -= kept.bytes();
+    longest_unused->maps.clear();
   }
   outworn_.clear();
   kept_bytes_ = bytes;

@@ -1,8 +1,5 @@
 #include "render/paraboloid_map_cache.h"
 
-#include <algorithm>
-#include <vector>
-
 namespace laterna::render {
 
 std::size_t ParaboloidMapCache::Entry::bytes() const {
@@ -57,19 +54,19 @@ ParaboloidMapCache::Found ParaboloidMapCache::find(std::size_t light, const shad
   return {found, !is_updated, is_updated};
 }
 
+// Lists would take memory, of which there may be none left.
 void ParaboloidMapCache::rest(std::size_t most_bytes) {
   const std::lock_guard list_lock(mutex_);
-  std::vector<Entry*> longest_unused;
   std::size_t bytes = 0;
-  for (auto& [light, entry] : entries_) {
-    longest_unused.push_back(&entry);
-    bytes += entry.bytes();
-  }
-  std::ranges::sort(longest_unused, {}, &Entry::used);
-  for (Entry* entry : longest_unused) {
-    if (bytes <= most_bytes) break;
-    bytes -= entry->bytes();
-    entry->shown = entry->standing = nullptr;
+  for (const auto& [light, entry] : entries_) bytes += entry.bytes();
+  while (bytes > most_bytes) {
+    Entry* longest_unused = nullptr;
+    for (auto& [light, entry] : entries_) {
+      const bool is_older = longest_unused == nullptr || entry.used < longest_unused->used;
+      if (entry.bytes() > 0 && is_older) longest_unused = &entry;
+    }
+    bytes -= longest_unused->bytes();
+    longest_unused->shown = longest_unused->standing = nullptr;
   }
   kept_bytes_ = bytes;
 }

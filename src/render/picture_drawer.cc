@@ -96,8 +96,13 @@ LayeredImage metres_of(const shadow::DepthMap& map) {
 
 class PictureDrawer::Drawing {
  public:
-  explicit Drawing(const PictureDrawer& of) : of_(of) { ++of_.pictures_drawn_now_; }
+  explicit Drawing(const PictureDrawer& of) : of_(of) {
+    const std::lock_guard lock(of_.drawing_mutex_);
+    ++of_.pictures_drawn_now_;
+  }
   ~Drawing() {
+    // None begins before the caches are at rest.
+    const std::lock_guard lock(of_.drawing_mutex_);
     if (--of_.pictures_drawn_now_ == 0) of_.let_caches_rest();
     of_.bins_.trim(std::min<std::size_t>(kIdleBinMemory, of_.cache_bytes_));
   }

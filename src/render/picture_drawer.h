@@ -1,7 +1,7 @@
 // Pictures of a posed scene: what the tiles share is put together, light by light, and the tiles are drawn.
 #pragma once
 
-#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -104,7 +104,8 @@ class PictureDrawer {
   mutable DepthMapCache maps_;
   mutable ParaboloidMapCache paraboloids_;
   mutable ReusePool<shadow::DepthMap> shown_maps_;  // whose memory draw_distances() draws into
-  mutable std::atomic<int> pictures_drawn_now_ = 0;
+  mutable std::mutex drawing_mutex_;
+  mutable int pictures_drawn_now_ = 0;
   mutable std::mutex feathers_mutex_;
   mutable std::uint64_t feathers_revision_ = 0;  // of the casters that they were drawn of
   mutable std::vector<image::MipChain> feathers_;
