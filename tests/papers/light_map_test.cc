@@ -270,7 +270,9 @@ TEST(QuakeSurfaces, AWalkFindsItsSurfacesInTheCache) {
   };
   for (int i = 0; i < kPictures; ++i) {
     const std::vector<std::uint8_t> picture = bytes_of(walk->draw(view(i)));
-    if (i % 10 == 0) EXPECT_EQ(picture, bytes_of(without->draw(view(i))));
+    if (i % 10 == 0) {
+      EXPECT_EQ(picture, bytes_of(without->draw(view(i))));
+    }
   }
   settings.cache_bytes = walk->statistics().most_bytes / 2;
   Result<QuakeWalk> small = QuakeWalk::create(baked->scene, settings);
