@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -32,10 +33,9 @@ glm::dvec4 quaternion_of(const glm::dmat3& m) {
 // Its skin places a mesh, and not its node.
 bool is_placed_by_skin(const Scene& scene, const Node& node) {
   if (node.skin < 0 || node.mesh < 0) return false;
-  for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-    if (primitive.influences > 0) return true;
-  }
-  return false;
+  const std::vector<Primitive>& primitives = scene.meshes[static_cast<std::size_t>(node.mesh)].primitives;
+  return std::any_of(primitives.begin(), primitives.end(),
+                     [](const Primitive& primitive) { return primitive.influences > 0; });
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ std::string add_node_path(Scene& scene, const std::string& name, Clip path) {
   Node& node = scene.nodes[static_cast<std::size_t>(found)];
   if (is_placed_by_skin(scene, node)) {
     const int joint = scene.skins[static_cast<std::size_t>(node.skin)].joints.front();
-    return fmt::format("the joints of its skin place {}: move the node that they hang on, as {} does",
+    return fmt::format("the joints of its skin place {}: move those, such as {}, or what they hang on",
                        in_quotes(name), in_quotes(scene.nodes[static_cast<std::size_t>(joint)].name));
   }
   if (!node.transform) node.transform = decompose(node.parent_from_node);

@@ -236,6 +236,16 @@ Scene wrung_cloth() {
   return scene;
 }
 
+TEST(NodePaths, WhatASkinPlacesDoesNotMove) {
+  Scene scene = wrung_cloth();
+  scene.nodes[1].name = "hip";
+  EXPECT_EQ(add_node_path(scene, "cloth", {}),
+            "the joints of its skin place \"cloth\": move those, such as \"hip\", or what they hang on");
+  EXPECT_EQ(scene.clips.size(), 1U);
+  EXPECT_EQ(add_node_path(scene, "hip", {}), "");
+  EXPECT_EQ(scene.clips.size(), 2U);
+}
+
 TEST(LargeSkins, ArePosedAlikeOnAnyNumberOfThreads) {
   RenderSettings settings = reference::test_settings(64, 64);
   settings.layers = {Layer::position, Layer::normal};
