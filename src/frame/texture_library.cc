@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "frame/decode_picture.h"
+#include "frame/surface_lobes.h"
 #include "image/film.h"
 
 namespace laterna::frame {
@@ -25,6 +26,8 @@ std::set<Request> requests(const Scene& scene) {
     want(m.normal_texture, image::MipUse::data);
     want(m.occlusion_texture, image::MipUse::data);
     want(m.emissive_texture, image::MipUse::colour);
+    for (std::size_t i = 0; m.lobes != nullptr && i < kLobeTextures; ++i)
+      want(*textures_of(*m.lobes)[i], kLobeTextureUses[i]);
     for (const SurfaceLayer& layer : m.layers) {
       want(layer.texture, kLayerUse);
       if (layer.projector < 0) continue;

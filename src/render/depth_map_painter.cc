@@ -24,7 +24,7 @@ DepthMapPainter::Bins DepthMapPainter::sort_casters(const raster::RasterView& vi
   raster::BinOptions options;
   options.cull = faces_ == CasterFaces::back_only ? raster::CullFaces::front : raster::CullFaces::none;
   options.required_flags = kCastsShadow;
-  options.excluded_flags = kAlphaBlend;  // see shadow/panes.h
+  options.excluded_flags = kPaneFlags;  // see shadow/panes.h
   options.pixels = {0, 0, view.width, view.height};
   options.instruction_set = set_;
   BinsPool::Lease lease = bins_pool_.take(bins_owner_);

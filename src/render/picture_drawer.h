@@ -20,6 +20,7 @@
 #include "render/progress_report.h"
 #include "render/reuse_pool.h"
 #include "render/shadow_casting.h"
+#include "shade/sheen_albedo.h"
 #include "shade/split_sum.h"
 #include "shade/tile_shader.h"
 
@@ -33,7 +34,7 @@ class PictureDrawer {
   PictureDrawer(const PosedScene& posed, const TaskPool& pool, InstructionSet instruction_set)
       : posed_(posed), pool_(pool), instruction_set_(instruction_set) {}
 
-  /// What shines from all around is made ready; nothing where nothing does.
+  /// What shines from all around is made ready; nothing where nothing does. So are tables that materials ask for.
   Result<void> load_environment(const RendererOptions& options);
 
   /// Before a picture of a mean is drawn: brings the scene to the instant of that picture, and gives the view of it.
@@ -79,8 +80,14 @@ class PictureDrawer {
   void add_lights(const raster::RasterView::Ray& ray, const RenderSettings& settings,
                   const light::LightPlan& plan, ShadowCasting& casting, ProgressReport& progress,
                   shade::ShaderJob& job) const;
+  // `excluded`: no clusters with any of these flags.
   void draw_bands(const raster::RasterView& view, const RenderSettings& settings, shade::ShaderJob& job,
-                  const PictureWriter& writer, RenderStatistics& statistics, ProgressReport& progress) const;
+                  std::uint32_t excluded, const PictureWriter& writer, RenderStatistics& statistics,
+                  ProgressReport& progress) const;
+  [[nodiscard]] bool looks_through(const RenderSettings& settings) const;
+  Result<shade::EarlierView> draw_behind(const raster::RasterView& view, const RenderSettings& settings,
+                                         shade::ShaderJob& job, RenderStatistics& statistics,
+                                         ProgressReport& progress) const;
   RenderStatistics draw_picture(const View& from, const RenderSettings& settings, SampleIndex sample,
                                 const PictureWriter& writer, ProgressReport& progress) const;
   Result<RenderStatistics> draw_mean(const View& from, const RenderSettings& settings,
@@ -90,7 +97,8 @@ class PictureDrawer {
   const TaskPool& pool_;
   InstructionSet instruction_set_;
   std::unique_ptr<const image::EnvironmentMap> environment_;
-  std::unique_ptr<const shade::SplitSum> split_sum_;
+  std::unique_ptr<const shade::SplitSum> split_sum_;  // of environments and transmission
+  std::unique_ptr<const shade::SheenAlbedo> sheen_;
   mutable BinsPool bins_;
   mutable DepthMapCache maps_;
   mutable ReusePool<shadow::DepthMap> shown_maps_;  // whose memory draw_distances() draws into

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <optional>
 
+#include "scene/gltf_lobes.h"
 #include "scene/texture_transform.h"
 
 namespace laterna::gltf {
@@ -43,6 +44,9 @@ class MaterialWriter {
     set_alpha(json, material);
     if (material.double_sided) json["doubleSided"] = true;
     if (material.unlit) document_.extend(json, "KHR_materials_unlit", Json::object());
+    write_lobes(material, document_, json, [this](Json& object, const char* name, const Texture& texture) {
+      set_texture(object, name, texture);
+    });
     if (fault_) return tl::unexpected(std::move(*fault_));
     if (json.is_null()) json = Json::object();
     return json;

@@ -1,0 +1,33 @@
+// Lobes of a surface's reflection, with their pictures found.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "frame/frame.h"
+#include "laterna/material_lobes.h"
+
+namespace laterna::frame {
+
+struct SurfaceLobes {
+  MaterialLobes values;  ///< its textures play no part: they are bound below
+  TextureBinding specular, specular_color;
+  TextureBinding clearcoat, clearcoat_roughness, clearcoat_normal;
+  TextureBinding sheen_color, sheen_roughness;
+  TextureBinding anisotropy;
+  TextureBinding iridescence, iridescence_thickness;
+  TextureBinding transmission, thickness;
+  bool has_clearcoat = false, has_sheen = false, has_anisotropy = false, has_iridescence = false,
+       has_transmission = false;
+};
+
+/// Null where they change nothing.
+std::shared_ptr<const SurfaceLobes> bind_lobes(const MaterialLobes& lobes, const TextureLibrary& library);
+
+/// How a picture is kept for each of a material's lobes: textures_of(MaterialLobes)'s order.
+extern const std::array<image::MipUse, kLobeTextures> kLobeTextureUses;
+
+/// Whether light goes through it, now or at another time.
+bool is_transmissive(const Scene& scene, int material);
+
+}  // namespace laterna::frame
