@@ -5,6 +5,8 @@
 #include <array>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <string_view>
+#include <vector>
 
 #include "laterna/scene.h"
 
@@ -89,7 +91,8 @@ inline constexpr std::size_t kLobeTextures = 12;
 std::array<Texture*, kLobeTextures> textures_of(MaterialLobes& lobes);
 std::array<const Texture*, kLobeTextures> textures_of(const MaterialLobes& lobes);
 
-/// Whether they show at all, whatever their textures hold.
-bool change_anything(const MaterialLobes& lobes);
+/// Those that change anything, whatever their textures hold: "specular" (and ior), "clearcoat", "sheen", "anisotropy",
+/// "iridescence", "transmission", "volume".
+std::vector<std::string_view> shown_lobes(const MaterialLobes& lobes);
 
 }  // namespace laterna

@@ -20,7 +20,7 @@ std::uint32_t material_flags(const Scene& scene, int material) {
   std::uint32_t flags = m.double_sided ? kDoubleSided : 0U;
   if (m.alpha_mode == AlphaMode::mask) flags |= kAlphaMask;
   if (m.alpha_mode == AlphaMode::blend) flags |= kAlphaBlend;
-  if (is_transmissive(scene, material)) flags |= kTransmissive;
+  if (may_show(scene, material, AnimatedProperty::transmission)) flags |= kTransmissive;
   return flags;
 }
 

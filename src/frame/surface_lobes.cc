@@ -1,6 +1,9 @@
 #include "frame/surface_lobes.h"
 
 #include <algorithm>
+#include <span>
+
+#include "scene/lobe_factors.h"
 
 namespace laterna::frame {
 
@@ -14,7 +17,7 @@ const std::array<image::MipUse, kLobeTextures> kLobeTextureUses = {kData, kColor
                                                                    kData, kData,  kData, kData, kData, kData};
 
 std::shared_ptr<const SurfaceLobes> bind_lobes(const MaterialLobes& lobes, const TextureLibrary& library) {
-  if (!change_anything(lobes)) return nullptr;
+  if (shown_lobes(lobes).empty()) return nullptr;
   auto bound = std::make_shared<SurfaceLobes>();
   bound->values = lobes;
   TextureBinding* const bindings[kLobeTextures] = {&bound->specular,         &bound->specular_color,
@@ -34,15 +37,23 @@ std::shared_ptr<const SurfaceLobes> bind_lobes(const MaterialLobes& lobes, const
   return bound;
 }
 
-bool is_transmissive(const Scene& scene, int material) {
+bool may_show(const Scene& scene, int material, AnimatedProperty factor) {
   const auto& lobes = scene.materials[static_cast<std::size_t>(material)].lobes;
-  if (lobes == nullptr) return false;
-  if (lobes->transmission.factor > 0) return true;
+  const std::span<const float> values =
+      lobes == nullptr ? std::span<const float>() : find_lobe_factor(factor)->of(*lobes);
+  if (std::any_of(values.begin(), values.end(), [](float value) { return value > 0; })) return true;
   return std::any_of(scene.clips.begin(), scene.clips.end(), [&](const Clip& clip) {
     return std::any_of(clip.channels.begin(), clip.channels.end(), [&](const ClipChannel& channel) {
-      return channel.property == AnimatedProperty::transmission && channel.target == material;
+      return channel.property == factor && channel.target == material;
     });
   });
+}
+
+bool may_show(const Scene& scene, AnimatedProperty factor) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    if (may_show(scene, static_cast<int>(i), factor)) return true;
+  }
+  return false;
 }
 
 }  // namespace laterna::frame

@@ -27,7 +27,9 @@ std::shared_ptr<const SurfaceLobes> bind_lobes(const MaterialLobes& lobes, const
 /// How a picture is kept for each of a material's lobes: textures_of(MaterialLobes)'s order.
 extern const std::array<image::MipUse, kLobeTextures> kLobeTextureUses;
 
-/// Whether light goes through it, now or at another time.
-bool is_transmissive(const Scene& scene, int material);
+/// Whether a lobe shows, now or at another time: its factor or colour is not 0, or a clip moves it.
+bool may_show(const Scene& scene, int material, AnimatedProperty factor);
+/// Of any material.
+bool may_show(const Scene& scene, AnimatedProperty factor);
 
 }  // namespace laterna::frame

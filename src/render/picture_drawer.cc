@@ -7,7 +7,7 @@
 
 #include "base/refuse.h"
 #include "base/stopwatch.h"
-#include "laterna/material_lobes.h"
+#include "frame/surface_lobes.h"
 #include "light/decal_plan.h"
 #include "render/behind_picture.h"
 #include "render/channels.h"
@@ -90,11 +90,10 @@ class PictureDrawer::Drawing {
 };
 
 Result<void> PictureDrawer::load_environment(const RendererOptions& options) {
-  const std::vector<Material>& materials = posed_.scene().materials;
-  if (std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.lobes != nullptr; })) {
+  if (frame::may_show(posed_.scene(), AnimatedProperty::transmission))
     split_sum_ = std::make_unique<const shade::SplitSum>(shade::make_split_sum(pool_));
+  if (frame::may_show(posed_.scene(), AnimatedProperty::sheen_color))
     sheen_ = std::make_unique<const shade::SheenAlbedo>(shade::make_sheen_albedo(pool_));
-  }
   if (!posed_.scene().environment) return {};
   Result<image::EnvironmentMap> map = prepare_environment(
       posed_.scene(), pool_, instruction_set_, options.environment_cache, options.environment_progress);

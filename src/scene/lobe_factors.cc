@@ -133,13 +133,23 @@ std::array<const Texture*, kLobeTextures> textures_of(const MaterialLobes& lobes
   return list_textures<const Texture>(lobes);
 }
 
-bool change_anything(const MaterialLobes& lobes) {
-  const bool has_film = lobes.iridescence.factor > 0;
-  const bool reflects_otherwise = lobes.ior != 1.5F || lobes.specular.factor != 1 ||
-                                  lobes.specular.color != glm::vec3(1) || lobes.specular.texture.is_set() ||
-                                  lobes.specular.color_texture.is_set();
-  return reflects_otherwise || has_film || lobes.clearcoat.factor > 0 || lobes.sheen.color != glm::vec3(0) ||
-         lobes.anisotropy.strength > 0 || lobes.transmission.factor > 0;
+std::vector<std::string_view> shown_lobes(const MaterialLobes& lobes) {
+  const bool is_usual = lobes.ior == 1.5F && lobes.specular.factor == 1 &&
+                        lobes.specular.color == glm::vec3(1) && !lobes.specular.texture.is_set() &&
+                        !lobes.specular.color_texture.is_set();
+  const std::pair<std::string_view, bool> all[] = {
+      {"specular", !is_usual},
+      {"clearcoat", lobes.clearcoat.factor > 0},
+      {"sheen", lobes.sheen.color != glm::vec3(0)},
+      {"anisotropy", lobes.anisotropy.strength > 0},
+      {"iridescence", lobes.iridescence.factor > 0},
+      {"transmission", lobes.transmission.factor > 0},
+      {"volume", lobes.transmission.factor > 0 && lobes.volume.thickness > 0}};
+  std::vector<std::string_view> names;
+  for (const auto& [name, shows] : all) {
+    if (shows) names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace laterna

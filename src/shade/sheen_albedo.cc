@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/elementary.h"
 #include "base/sample_sequence.h"
@@ -27,28 +28,34 @@ double masking(double cosine, double alpha) {
   return exponential2(exponent * kLog2E);
 }
 
-}  // namespace
+// A direction of light, evenly spread over the hemisphere, and what of the lobe depends on it alone.
+struct LightDirection {
+  double x, y, z, masking;
+};
 
-double sheen_lobe(double n_l, double n_v, double n_h, double roughness) {
-  const double alpha = std::max(roughness * roughness, kLeastAlpha);
-  const double distribution = (2 + 1 / alpha) * power(std::max(0.0, 1 - n_h * n_h), 0.5 / alpha) / (2 * kPi);
-  return distribution / ((1 + masking(n_v, alpha) + masking(n_l, alpha)) * 4 * n_l * n_v);
-}
-
-double integrate_sheen(double n_v, double roughness, int count) {
-  const double v_x = std::sqrt(std::max(0.0, 1 - n_v * n_v));
-  double sum = 0;
+std::vector<LightDirection> directions(double alpha, int count) {
+  std::vector<LightDirection> result;
   for (int i = 0; i < count; ++i) {
-    // Evenly over the hemisphere: density 1 / 2π.
     const auto [u, v] = lattice_point({i, count});
-    const double n_l = std::max(u, 1e-6), turn = 2 * kPi * v;
-    const double l_x = std::sqrt(1 - n_l * n_l) * cosine(turn), l_y = std::sqrt(1 - n_l * n_l) * sine(turn);
-    const double h_x = v_x + l_x, h_z = n_v + n_l;
-    const double n_h = h_z / std::sqrt(h_x * h_x + l_y * l_y + h_z * h_z);
-    sum += sheen_lobe(n_l, n_v, n_h, roughness) * n_l * 2 * kPi;
+    const double r = std::sqrt(1 - u * u), turn = 2 * kPi * v;
+    result.push_back({r * cosine(turn), r * sine(turn), u, masking(u, alpha)});
   }
-  return std::min(sum / count, 1.0);
+  return result;
 }
+
+// D V n·l over the density 1 / 2π of the directions, summed: equations 2 and 3.
+double integrate_sheen(double n_v, double alpha, const std::vector<LightDirection>& lights) {
+  const double v_x = std::sqrt(std::max(0.0, 1 - n_v * n_v)), masking_v = masking(n_v, alpha);
+  double sum = 0;
+  for (const LightDirection& light : lights) {
+    const double h_x = v_x + light.x, h_y = light.y, h_z = n_v + light.z;
+    const double n_h_squared = h_z * h_z / (h_x * h_x + h_y * h_y + h_z * h_z);
+    sum += power(std::max(0.0, 1 - n_h_squared), 0.5 / alpha) / (1 + masking_v + light.masking);
+  }
+  return std::min(sum * (2 + 1 / alpha) / (4 * n_v * static_cast<double>(lights.size())), 1.0);
+}
+
+}  // namespace
 
 SheenAlbedo make_sheen_albedo(const TaskPool& pool) {
   constexpr int kSamples = 512;
@@ -56,10 +63,12 @@ SheenAlbedo make_sheen_albedo(const TaskPool& pool) {
   SheenAlbedo table;
   pool.for_each(SheenAlbedo::kSide, [&](std::size_t row, int) {
     const double roughness = static_cast<double>(row) / (SheenAlbedo::kSide - 1);
+    const double alpha = std::max(roughness * roughness, kLeastAlpha);
+    const std::vector<LightDirection> lights = directions(alpha, kSamples);
     for (std::size_t column = 0; column < SheenAlbedo::kSide; ++column) {
       const double n_v = std::max(static_cast<double>(column) / (SheenAlbedo::kSide - 1), kLeastCosine);
       table.share[row * SheenAlbedo::kSide + column] =
-          static_cast<float>(integrate_sheen(n_v, roughness, kSamples));
+          static_cast<float>(integrate_sheen(n_v, alpha, lights));
     }
   });
   return table;

@@ -16,10 +16,4 @@ struct SheenAlbedo {
 };
 SheenAlbedo make_sheen_albedo(const TaskPool& pool);
 
-/// The lobe itself, divided by its colour: D V of Estevez & Kulla 2017, equations 2 and 3, with the least α of shading.
-/// Cosines in (0, 1].
-double sheen_lobe(double n_l, double n_v, double n_h, double roughness);
-/// One entry of the table; `count` directions.
-double integrate_sheen(double n_v, double roughness, int count);
-
 }  // namespace laterna::shade
