@@ -36,7 +36,9 @@ double table_albedo(double cosine, double roughness) {
   const auto at = [&](int r, int c) {
     return static_cast<double>(sheen_table().share[static_cast<std::size_t>(r * kSide + c)]);
   };
-  const auto across = [&](int r) { return at(r, column) + (at(r, column + 1) - at(r, column)) * (x - column); };
+  const auto across = [&](int r) {
+    return at(r, column) + (at(r, column + 1) - at(r, column)) * (x - column);
+  };
   return across(row) + (across(row + 1) - across(row)) * (y - row);
 }
 
@@ -74,8 +76,8 @@ class Batch {
   [[nodiscard]] glm::dvec3 expected(std::size_t i) const {
     reference::LayeredPoint p = point_;
     p.surface.to_eye = {points_->to_eye_x_ws[i], points_->to_eye_y_ws[i], points_->to_eye_z_ws[i]};
-    return reference::reflect_layered(p, {irradiance_->to_light_x_ws[i], irradiance_->to_light_y_ws[i],
-                                          irradiance_->to_light_z_ws[i]});
+    return reference::reflect_layered(
+        p, {irradiance_->to_light_x_ws[i], irradiance_->to_light_y_ws[i], irradiance_->to_light_z_ws[i]});
   }
 
  private:
@@ -93,7 +95,8 @@ class Batch {
     lobes_->specular[i] = lobes.specular.factor;
     lobes_->clearcoat[i] = lobes.clearcoat.factor;
     lobes_->clearcoat_roughness[i] = lobes.clearcoat.roughness;
-    store(point_.coat_normal, lobes_->coat_normal_x_ws, lobes_->coat_normal_y_ws, lobes_->coat_normal_z_ws, i);
+    store(point_.coat_normal, lobes_->coat_normal_x_ws, lobes_->coat_normal_y_ws, lobes_->coat_normal_z_ws,
+          i);
     store(glm::dvec3(lobes.sheen.color), lobes_->sheen_r, lobes_->sheen_g, lobes_->sheen_b, i);
     lobes_->sheen_roughness[i] = lobes.sheen.roughness;
     store(point_.along, lobes_->along_x_ws, lobes_->along_y_ws, lobes_->along_z_ws, i);
@@ -179,7 +182,9 @@ constexpr Sweep kSweeps[] = {
     {"ior", [](reference::LayeredPoint& p, float t) { p.lobes.ior = t == 0 ? 0 : 1 + 1.5F * t; }},
     {"specular", [](reference::LayeredPoint& p, float t) { p.lobes.specular.factor = t; }},
     {"specular_color",
-     [](reference::LayeredPoint& p, float t) { p.lobes.specular.color = {30 * t, 1, 1 - t}; }},
+     [](reference::LayeredPoint& p, float t) {
+       p.lobes.specular.color = {30 * t, 1, 1 - t};
+     }},
     {"clearcoat",
      [](reference::LayeredPoint& p, float t) {
        p.lobes.clearcoat.factor = t;
@@ -289,7 +294,8 @@ double furnace(const reference::LayeredPoint& point, double n_v) {
   glm::dvec3 sum(0);
   for (int first = 0; first < kRings * kTurns; first += static_cast<int>(kMaxSamples)) {
     for (int i = 0; i < static_cast<int>(kMaxSamples); ++i) {
-      const double z = ((first + i) / kTurns + 0.5) / kRings, turn = 6.283185307 * (i % kTurns + 0.5) / kTurns;
+      const double z = ((first + i) / kTurns + 0.5) / kRings,
+                   turn = 6.283185307 * (i % kTurns + 0.5) / kTurns;
       const double r = std::sqrt(1 - z * z);
       batch.set_directions(static_cast<std::size_t>(i), {r * std::cos(turn), r * std::sin(turn), z},
                            {std::sqrt(1 - n_v * n_v), 0, n_v});
@@ -324,9 +330,10 @@ TEST_P(LobeSweep, ReflectsNoMoreThanFalls) {
 TEST(SheenAlbedoTable, IsTheIntegralOfTheLobe) {
   for (const std::size_t row : {9U, 16U, 31U}) {
     for (const std::size_t column : {3U, 12U, 31U}) {
-      const double exact = reference::sheen_albedo(static_cast<double>(column) / 31,
-                                                   static_cast<double>(row) / 31, 200);
-      EXPECT_NEAR(sheen_table().share[row * SheenAlbedo::kSide + column], exact, 2e-3) << row << ' ' << column;
+      const double exact =
+          reference::sheen_albedo(static_cast<double>(column) / 31, static_cast<double>(row) / 31, 200);
+      EXPECT_NEAR(sheen_table().share[row * SheenAlbedo::kSide + column], exact, 2e-3)
+          << row << ' ' << column;
     }
   }
 }

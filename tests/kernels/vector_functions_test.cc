@@ -58,7 +58,8 @@ TEST_P(VectorFunctions, CosineHasAnAbsoluteErrorBelow1e6PlusItsArgumentsRounding
     const Floats x = spread(-most, most);
     const Floats y = apply(cosines_for(GetParam()), x);
     for (std::size_t i = 0; i < kCount; ++i)
-      ASSERT_NEAR(y[i], std::cos(static_cast<double>(x[i])), 1e-6 + 2e-7 * std::abs(static_cast<double>(x[i])))
+      ASSERT_NEAR(y[i], std::cos(static_cast<double>(x[i])),
+                  1e-6 + 2e-7 * std::abs(static_cast<double>(x[i])))
           << x[i];
     if (GetParam() != InstructionSet::scalar) {
       EXPECT_TRUE(same_bits(y, apply(cosines_for(InstructionSet::scalar), x)));

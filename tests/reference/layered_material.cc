@@ -121,15 +121,13 @@ glm::dvec3 reflect_layered(const LayeredPoint& p, const glm::dvec3& to_light) {
   const double n_h = glm::dot(s.normal, h), v_h = glm::dot(s.to_eye, h);
   glm::dvec3 sum(0);
   if (n_l > 0) {
-    const glm::dvec3 f0 =
-        glm::min(f0_of(lobes.ior) * glm::dvec3(lobes.specular.color), glm::dvec3(1));
+    const glm::dvec3 f0 = glm::min(f0_of(lobes.ior) * glm::dvec3(lobes.specular.color), glm::dvec3(1));
     glm::dvec3 dielectric = schlick(f0, v_h), metal = schlick(s.base, v_h);
     const IridescenceLobe& film = lobes.iridescence;
     if (film.factor > 0) {
       const auto covered = [&](const glm::dvec3& plain, const glm::dvec3& base_f0) {
         const double share = film.factor;
-        return plain * (1 - share) +
-               film_reflectance(film.ior, film.thickness_maximum, v_h, base_f0) * share;
+        return plain * (1 - share) + film_reflectance(film.ior, film.thickness_maximum, v_h, base_f0) * share;
       };
       dielectric = covered(dielectric, f0);
       metal = covered(metal, s.base);
@@ -139,8 +137,8 @@ glm::dvec3 reflect_layered(const LayeredPoint& p, const glm::dvec3& to_light) {
     const glm::dvec3 mirrored = dielectric * (1 - s.metallic) + metal * s.metallic;
     const glm::dvec3 kept = glm::dvec3(largest * (1 - s.metallic)) + metal * s.metallic;
     const double scatters = (1 - s.metallic) * (1 - lobes.transmission.factor);
-    const double facets =
-        lobes.anisotropy.strength > 0 ? brushed_ggx(p, to_light, s.to_eye, h) : ggx(n_l, n_v, n_h, s.roughness);
+    const double facets = lobes.anisotropy.strength > 0 ? brushed_ggx(p, to_light, s.to_eye, h)
+                                                        : ggx(n_l, n_v, n_h, s.roughness);
     for (int c = 0; c < 3; ++c)
       sum[c] = (positive(1 - kept[c]) * scatters * s.base[c] / kPi + mirrored[c] * facets) * n_l;
     const glm::dvec3 sheen(lobes.sheen.color);
@@ -156,7 +154,8 @@ glm::dvec3 reflect_layered(const LayeredPoint& p, const glm::dvec3& to_light) {
     sum *= 1 - share;
     // Seen from behind, it is as bright as at its edge.
     if (c_l > 0)
-      sum += share * c_l * ggx(c_l, std::max(c_v, 1e-12), positive(glm::dot(p.coat_normal, h)), lobes.clearcoat.roughness);
+      sum += share * c_l *
+             ggx(c_l, std::max(c_v, 1e-12), positive(glm::dot(p.coat_normal, h)), lobes.clearcoat.roughness);
   }
   return sum;
 }

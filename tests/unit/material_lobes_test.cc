@@ -75,12 +75,13 @@ TEST(MaterialLobes, FactorsOutOfRangeAreLimitedWithAWarning) {
     "KHR_materials_sheen": {"sheenColorFactor": [0.5, -1, 0.25]},
     "KHR_materials_volume": {"attenuationDistance": 0}}}])");
   const Scene scene = builder.load(folder);
-  EXPECT_EQ(warnings_of(scene),
-            "materials[0].extensions.KHR_materials_ior.ior: 0.5 is out of range and taken as 1\n"
-            "materials[0].extensions.KHR_materials_clearcoat.clearcoatFactor: 1.5 is out of range and taken as 1\n"
-            "materials[0].extensions.KHR_materials_sheen.sheenColorFactor: -1 is out of range and taken as 0\n"
-            "materials[0].extensions.KHR_materials_volume.attenuationDistance: 0 is out of range and taken as "
-            "1e-09\n");
+  EXPECT_EQ(
+      warnings_of(scene),
+      "materials[0].extensions.KHR_materials_ior.ior: 0.5 is out of range and taken as 1\n"
+      "materials[0].extensions.KHR_materials_clearcoat.clearcoatFactor: 1.5 is out of range and taken as 1\n"
+      "materials[0].extensions.KHR_materials_sheen.sheenColorFactor: -1 is out of range and taken as 0\n"
+      "materials[0].extensions.KHR_materials_volume.attenuationDistance: 0 is out of range and taken as "
+      "1e-09\n");
   EXPECT_EQ(scene.materials[0].lobes->sheen.color, glm::vec3(0.5F, 0, 0.25F));
 }
 
@@ -94,9 +95,10 @@ TEST(MaterialLobes, WhatIsNoNumberIsRefusedWithItsPlace) {
     "KHR_materials_sheen": 7}}])");
   const std::string messages =
       messages_of(load_scene({folder.write("scene.gltf", builder.text())}), folder.path());
-  for (const char* place : {"KHR_materials_clearcoat.clearcoatFactor: expected a number",
-                            "KHR_materials_clearcoat.clearcoatTexture.index: ",
-                            "KHR_materials_specular.specularColorFactor: ", "KHR_materials_sheen: expected"}) {
+  for (const char* place :
+       {"KHR_materials_clearcoat.clearcoatFactor: expected a number",
+        "KHR_materials_clearcoat.clearcoatTexture.index: ", "KHR_materials_specular.specularColorFactor: ",
+        "KHR_materials_sheen: expected"}) {
     EXPECT_NE(messages.find(place), std::string::npos) << place << "\n" << messages;
   }
 }
@@ -118,7 +120,8 @@ TEST(MaterialLobes, ScenesBuiltInCodeAreChecked) {
             "materials[0].lobes.sheen.color[1]: expected a number from 0 to 1, got nan\n"
             "materials[0].lobes.volume.attenuation_distance: expected a finite number of at least "
             "9.999999717180685e-10, got -1\n"
-            "materials[0].lobes.transmission.texture.picture: 9 is no index into the 1 pictures, nor -1 for none\n");
+            "materials[0].lobes.transmission.texture.picture: 9 is no index into the 1 pictures, nor -1 for "
+            "none\n");
 }
 
 TEST(MaterialLobes, PointersMoveThem) {
@@ -139,19 +142,21 @@ TEST(MaterialLobes, PointersMoveThem) {
   json channels = json::array(), samplers = json::array();
   const auto add = [&](const std::string& pointer, int output) {
     samplers.push_back({{"input", times}, {"output", output}});
-    channels.push_back({{"sampler", samplers.size() - 1},
-                        {"target",
-                         {{"path", "pointer"},
-                          {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
+    channels.push_back(
+        {{"sampler", samplers.size() - 1},
+         {"target",
+          {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
   };
   const std::string extensions = "/materials/0/extensions/";
   add(extensions + "KHR_materials_clearcoat/clearcoatFactor", numbers);
   add(extensions + "KHR_materials_volume/attenuationColor", colors);
-  add(extensions + "KHR_materials_clearcoat/clearcoatTexture/extensions/KHR_texture_transform/offset", offsets);
+  add(extensions + "KHR_materials_clearcoat/clearcoatTexture/extensions/KHR_texture_transform/offset",
+      offsets);
   add(extensions + "KHR_materials_sheen/sheenColorTexture/extensions/KHR_texture_transform/offset", offsets);
   builder.document["animations"] = json::array({{{"channels", channels}, {"samplers", samplers}}});
   Scene scene = builder.load(folder);
-  EXPECT_NE(warnings_of(scene).find("KHR_materials_sheen/sheenColorTexture/extensions/KHR_tex…\" cannot be animated"),
+  EXPECT_NE(warnings_of(scene).find(
+                "KHR_materials_sheen/sheenColorTexture/extensions/KHR_tex…\" cannot be animated"),
             std::string::npos)
       << warnings_of(scene);
   const std::shared_ptr<const MaterialLobes> at_rest = scene.materials[0].lobes;
@@ -192,8 +197,8 @@ Scene ball_scene() {
 }
 
 LayeredImage picture_of(const Scene& scene, int threads = 1, std::optional<InstructionSet> set = {}) {
-  return reference::render(reference::make_renderer(scene, threads, set), reference::look({0, 0, 4}, {0, 0, 0}, 50, 1),
-                           pbr());
+  return reference::render(reference::make_renderer(scene, threads, set),
+                           reference::look({0, 0, 4}, {0, 0, 0}, 50, 1), pbr());
 }
 
 void expect_same(const LayeredImage& a, const LayeredImage& b) {
@@ -262,8 +267,7 @@ TEST(MaterialLobes, GlassShowsWhatTheRefractedRayLeavesAt) {
       MaterialLobes lobes = clear_glass();
       lobes.ior = ior;
       lobes.volume.thickness = thickness;
-      const LayeredImage image =
-          reference::render(reference::make_renderer(behind_pane(lobes)), view, pbr());
+      const LayeredImage image = reference::render(reference::make_renderer(behind_pane(lobes)), view, pbr());
       for (const int x : {30, 60}) {
         const int y = 50;
         // The pixel's ray meets the pane, is refracted, and what is drawn behind where it leaves is seen.

@@ -20,7 +20,8 @@ Shot balls(const std::function<void(Material& material, MaterialLobes& lobes, fl
     auto lobes = std::make_shared<MaterialLobes>();
     set(scene.materials.back(), *lobes, static_cast<float>(i) / (kBalls - 1));
     scene.materials.back().lobes = std::move(lobes);
-    add_object(scene, "ball", ball({1.1F * (static_cast<float>(i) - 0.5F * (kBalls - 1)), 0, 0}, 0.5F), material);
+    add_object(scene, "ball", ball({1.1F * (static_cast<float>(i) - 0.5F * (kBalls - 1)), 0, 0}, 0.5F),
+               material);
   }
   scene.environment.emplace();
   scene.environment->picture = add_picture(scene, "studio", sky_of(studio));
@@ -70,13 +71,13 @@ Shot textured(const std::function<void(Material& material, int relief, int check
   const int relief = add_picture(shot.scene, "relief", relief_map());
   const int checks = add_picture(shot.scene, "checks", checks_map());
   for (int i = 0; i < kBalls; ++i)
-    set(shot.scene.materials[static_cast<std::size_t>(i)], relief, checks, static_cast<float>(i) / (kBalls - 1));
+    set(shot.scene.materials[static_cast<std::size_t>(i)], relief, checks,
+        static_cast<float>(i) / (kBalls - 1));
   return shot;
 }
 
 void draw_maps(Sitting& sitting) {
-  sitting.picture("Normal map, its scale from 0 to 1.",
-                  textured([](Material& m, int relief, int, float t) {
+  sitting.picture("Normal map, its scale from 0 to 1.", textured([](Material& m, int relief, int, float t) {
                     m.normal_texture.picture = relief;
                     m.normal_scale = t;
                   }));
@@ -85,16 +86,18 @@ void draw_maps(Sitting& sitting) {
                     m.metallic_roughness_texture.picture = checks;
                     m.roughness = t;
                   }));
-  sitting.picture("Occlusion map, its strength from 0 to 1: light from all around is held off, the lamp's is not.",
-                  textured([](Material& m, int, int checks, float t) {
-                    m.occlusion_texture.picture = checks;
-                    m.occlusion_strength = t;
-                    m.roughness = 0.8F;
-                  }));
+  sitting.picture(
+      "Occlusion map, its strength from 0 to 1: light from all around is held off, the lamp's is not.",
+      textured([](Material& m, int, int checks, float t) {
+        m.occlusion_texture.picture = checks;
+        m.occlusion_strength = t;
+        m.roughness = 0.8F;
+      }));
 }
 
 void draw_lobes(Sitting& sitting) {
-  sitting.picture("Clear coat from 0 to 1, over rough red.", balls([](Material& m, MaterialLobes& l, float t) {
+  sitting.picture("Clear coat from 0 to 1, over rough red.",
+                  balls([](Material& m, MaterialLobes& l, float t) {
                     m.base_color = {0.5F, 0.02F, 0.02F, 1};
                     m.roughness = 0.6F;
                     l.clearcoat.factor = t;
@@ -163,7 +166,8 @@ Shot before_stripes(const std::function<void(Material& material, MaterialLobes& 
                                    static_cast<std::uint8_t>(y < 8 ? 200 : 60), 90};
     codes[i] = color[i % 3];
   }
-  const int wall = add_material(shot.scene, "wall", glm::vec3(1), add_picture(shot.scene, "stripes", stripes), 1);
+  const int wall =
+      add_material(shot.scene, "wall", glm::vec3(1), add_picture(shot.scene, "stripes", stripes), 1);
   add_object(shot.scene, "wall", rectangle({0, 0, -1.2F}, {1, 0, 0}, {0, 1, 0}, {10, 3}, 0.5F), wall);
   return shot;
 }
@@ -192,9 +196,11 @@ constexpr Figure kFigures[] = {
      "Light that is scattered between layers is left out, and so is what one ball shows of the others.",
      "laterna render scene.glb", draw_lobes},
     {"material-glass", "Through glass", "KHR_materials_transmission and _volume",
-     "The wall is seen through each ball, bent as if the light left a metre deeper, and upside down where it is bent "
+     "The wall is seen through each ball, bent as if the light left a metre deeper, and upside down where it "
+     "is bent "
      "enough.",
-     "Glass is not seen through glass, nor what lies outside the picture; shadows are tinted, but light is not "
+     "Glass is not seen through glass, nor what lies outside the picture; shadows are tinted, but light is "
+     "not "
      "focused.",
      "laterna render scene.glb", draw_glass},
 };
