@@ -23,7 +23,8 @@ struct LobeFactor {
     return {first(lobes), static_cast<std::size_t>(components)};
   }
   [[nodiscard]] std::span<float> of(MaterialLobes& lobes) const {
-    return {const_cast<float*>(first(lobes)), static_cast<std::size_t>(components)};
+    return {const_cast<float*>(first(lobes)),  // NOLINT(*-const-cast): of lobes that may be changed
+            static_cast<std::size_t>(components)};
   }
   /// Whether this may stand for every component. Beside its range: ior 0, and an attenuation distance without end.
   [[nodiscard]] bool allows(double value) const;

@@ -84,6 +84,7 @@ void draw_maps(Sitting& sitting) {
   sitting.picture("Roughness map, its factor from 0 to 1.",
                   textured([](Material& m, int, int checks, float t) {
                     m.metallic_roughness_texture.picture = checks;
+                    m.metallic = 1;
                     m.roughness = t;
                   }));
   sitting.picture(
@@ -168,7 +169,7 @@ Shot before_stripes(const std::function<void(Material& material, MaterialLobes& 
   }
   const int wall =
       add_material(shot.scene, "wall", glm::vec3(1), add_picture(shot.scene, "stripes", stripes), 1);
-  add_object(shot.scene, "wall", rectangle({0, 0, -1.2F}, {1, 0, 0}, {0, 1, 0}, {10, 3}, 0.5F), wall);
+  add_object(shot.scene, "wall", rectangle({0, 0, -1.2F}, {1, 0, 0}, {0, 1, 0}, {10, 3}, 0.3F), wall);
   return shot;
 }
 
@@ -196,9 +197,8 @@ constexpr Figure kFigures[] = {
      "Light that is scattered between layers is left out, and so is what one ball shows of the others.",
      "laterna render scene.glb", draw_lobes},
     {"material-glass", "Through glass", "KHR_materials_transmission and _volume",
-     "The wall is seen through each ball, bent as if the light left a metre deeper, and upside down where it "
-     "is bent "
-     "enough.",
+     "The wall is seen through each ball, bent as if light left it a metre deeper; shadows take on its "
+     "colour.",
      "Glass is not seen through glass, nor what lies outside the picture; shadows are tinted, but light is "
      "not "
      "focused.",
