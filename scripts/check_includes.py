@@ -44,6 +44,7 @@ PUBLIC_HEADERS = {
     "instruction_set.h": "base",
     "lamps.h": "scene",
     "lens.h": "base",
+    "material_lobes.h": "scene",
     "measure.h": "measure",
     "light_color.h": "image",
     "output.h": "base",

@@ -1,5 +1,6 @@
 // laterna info: what is in a scene.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "laterna/lamps.h"
+#include "laterna/material_lobes.h"
 #include "outcome.h"
 #include "scene_options.h"
 #include "thrown_picture_report.h"
@@ -206,7 +208,11 @@ Json describe(const Scene& scene, double time) {
                         : m.alpha_mode == AlphaMode::blend ? "blend"
                                                            : "opaque";
     j["materials"].push_back(
-        {{"name", m.name}, {"alpha", alpha}, {"double_sided", m.double_sided}, {"unlit", m.unlit}});
+        {{"name", m.name},
+         {"alpha", alpha},
+         {"double_sided", m.double_sided},
+         {"unlit", m.unlit},
+         {"lobes", m.lobes == nullptr ? std::vector<std::string_view>() : shown_lobes(*m.lobes)}});
   }
   return j;
 }
@@ -249,6 +255,11 @@ void print_table(const Json& j, const ThrownPictures& thrown) {
              j["triangles"].get<std::size_t>(), "vertices", j["vertices"].get<std::size_t>());
   fmt::print("{:<12} {} to {} m\n", "bounds", triple(j["bounds"][0]), triple(j["bounds"][1]));
   fmt::print("{:<12} {}\n", "materials", j["materials"].size());
+  for (const Json& m : j["materials"]) {
+    if (!m["lobes"].empty())
+      fmt::print("  {:<10} {}\n", m["name"].get<std::string>(),
+                 fmt::join(m["lobes"].get<std::vector<std::string>>(), ", "));
+  }
   fmt::print("{:<12} {}\n", "pictures", j["pictures"].size());
   for (const Json& p : j["pictures"]) {
     const std::string size = p.contains("size")

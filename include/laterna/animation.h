@@ -81,6 +81,25 @@ enum class AnimatedProperty : std::uint8_t {
   alpha_cutoff,
   normal_scale,
   occlusion_strength,
+  // Of its lobes (laterna/material_lobes.h):
+  ior,
+  specular,
+  specular_color,  ///< 3
+  clearcoat,
+  clearcoat_roughness,
+  clearcoat_normal_scale,
+  sheen_color,  ///< 3
+  sheen_roughness,
+  anisotropy_strength,
+  anisotropy_rotation,  ///< radians
+  iridescence,
+  iridescence_ior,
+  iridescence_thickness_minimum,  ///< nanometres
+  iridescence_thickness_maximum,  ///< nanometres
+  transmission,
+  thickness,
+  attenuation_distance,  ///< metres
+  attenuation_color,     ///< 3
   // Of a material's texture number `texture`; each is multiplied on what channels before it gave, the first sets it anew:
   texture_offset,    ///< 2
   texture_rotation,  ///< radians
@@ -91,7 +110,7 @@ struct ClipChannel {
   AnimatedProperty property = AnimatedProperty::translation;
   int target = -1;        ///< index into the scene's nodes, cameras, lights or materials
   bool of_light = false;  ///< yfov, aspect, extents, near, far: of a projector, not of a camera
-  /// 0 base colour, 1 metallic-roughness, 2 normal, 3 occlusion, 4 emissive.
+  /// 0 base colour, 1 metallic-roughness, 2 normal, 3 occlusion, 4 emissive; then those of its lobes.
   int texture = 0;
   int keys = -1;  ///< index into Clip::keys
 };

@@ -31,6 +31,7 @@
 namespace laterna {
 
 struct LightDistribution;  // laterna/lamps.h
+struct MaterialLobes;      // laterna/material_lobes.h
 
 // ---------------------------------------------------------------------------------------------- pictures in a scene
 
@@ -107,6 +108,8 @@ struct Material {
   bool unlit = false;                ///< KHR_materials_unlit: base colour is what is seen
   std::vector<SurfaceLayer> layers;  ///< at most kMaxSurfaceLayers
   LightMap light_map;
+  /// Clear coats, sheen, glass and more; null: none. docs/materials.md
+  std::shared_ptr<const MaterialLobes> lobes;
 };
 
 /// Triangles of one material. Attributes are empty or as long as `positions`.

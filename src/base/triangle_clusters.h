@@ -26,7 +26,8 @@ enum ClusterFlag : std::uint32_t {
   kAlphaBlend = 1U << 2U,  // drawn over what is behind it
   kCastsShadow = 1U << 3U,
   kReceivesShadow = 1U << 4U,
-  kVisible = 1U << 5U,  // to cameras
+  kVisible = 1U << 5U,       // to cameras
+  kTransmissive = 1U << 6U,  // light goes through it, and what lies behind is seen
 };
 
 struct Cluster {
@@ -40,12 +41,13 @@ struct Cluster {
   float high_ws[3] = {};
 };
 
-/// Shadows are cast by opaque surfaces and cut-outs; blended ones tint what comes through (shadow/panes).
+/// Shadows are cast by opaque surfaces and cut-outs; blended and transmissive ones tint what comes through (shadow/panes).
+inline constexpr std::uint32_t kPaneFlags = kAlphaBlend | kTransmissive;
 inline bool is_opaque_caster(const Cluster& cluster) {
-  return (cluster.flags & (kCastsShadow | kAlphaBlend)) == kCastsShadow;
+  return (cluster.flags & (kCastsShadow | kPaneFlags)) == kCastsShadow;
 }
 inline bool is_blended_caster(const Cluster& cluster) {
-  return (cluster.flags & (kCastsShadow | kAlphaBlend)) == (kCastsShadow | kAlphaBlend);
+  return (cluster.flags & kCastsShadow) != 0 && (cluster.flags & kPaneFlags) != 0;
 }
 
 /// A view of arrays that a Frame owns.

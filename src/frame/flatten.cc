@@ -1,10 +1,13 @@
 #include "frame/flatten.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <memory>
 
+#include "base/elementary.h"
+#include "frame/surface_lobes.h"
 #include "frame/vertex_pose.h"
 #include "scene/scene_pose.h"
 
@@ -17,7 +20,13 @@ std::uint32_t material_flags(const Scene& scene, int material) {
   std::uint32_t flags = m.double_sided ? kDoubleSided : 0U;
   if (m.alpha_mode == AlphaMode::mask) flags |= kAlphaMask;
   if (m.alpha_mode == AlphaMode::blend) flags |= kAlphaBlend;
+  if (may_show(scene, material, AnimatedProperty::transmission)) flags |= kTransmissive;
   return flags;
+}
+
+// Metres per unit: the cube root of how volumes grow.
+float scale_of(const glm::dmat4& world_from_object) {
+  return static_cast<float>(power(std::abs(glm::determinant(glm::dmat3(world_from_object))), 1.0 / 3));
 }
 
 std::uint32_t node_flags(const Node& node) {
@@ -48,6 +57,7 @@ std::vector<PlacedPart> place_parts(const Scene& scene, const ClusteredMeshes& m
                     std::string name = node.name.empty() ? scene.meshes[mesh].name : node.name;
                     if (!node.node_from_instance.empty()) name += "[" + std::to_string(instance) + "]";
                     frame.object_names.push_back(std::move(name));
+                    frame.object_scales.push_back(scale_of(world_from_object));
                     const auto pose = pose_of(scene, node, world_from_object, world_from_node);
                     for (std::size_t p = 0; p < meshes[mesh].size(); ++p) {
                       const Primitive& primitive = scene.meshes[mesh].primitives[p];
@@ -322,6 +332,9 @@ void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
   frame.has_environment = scene.environment.has_value();
   frame.has_blending = std::any_of(frame.clusters.begin(), frame.clusters.end(),
                                    [](const Cluster& c) { return (c.flags & kAlphaBlend) != 0; });
+  frame.has_transmission = std::any_of(frame.clusters.begin(), frame.clusters.end(), [](const Cluster& c) {
+    return (c.flags & kTransmissive) != 0 && (c.flags & kVisible) != 0;
+  });
   frame.has_blended_casters = std::any_of(frame.clusters.begin(), frame.clusters.end(), is_blended_caster);
   frame.all_receive_shadows = std::all_of(frame.clusters.begin(), frame.clusters.end(),
                                           [](const Cluster& c) { return (c.flags & kReceivesShadow) != 0; });
@@ -340,6 +353,7 @@ Reposed repose_meshes(const Scene& scene, const std::vector<glm::dmat4>& world_f
                   [&](const Node& node, std::size_t /*instance*/, const glm::dmat4& world_from_object) {
                     if (!node_moves[static_cast<std::size_t>(&node - scene.nodes.data())]) return;
                     const auto pose = pose_of(scene, node, world_from_object, world_from_node);
+                    frame.object_scales[part->object] = scale_of(world_from_object);
                     const std::size_t parts =
                         scene.meshes[static_cast<std::size_t>(node.mesh)].primitives.size();
                     for (std::size_t p = 0; p < parts; ++p, ++part) {

@@ -10,13 +10,10 @@
 #include "base/elementary.h"
 #include "frame/flatten.h"
 #include "frame/place_lights.h"
+#include "frame/surface_lobes.h"
 
 namespace laterna::frame {
 namespace {
-
-TextureBinding bind(const Texture& texture, image::MipUse use, const TextureLibrary& library) {
-  return {library.find(texture.picture, use), texture.sampler, texture.uv_set, texture.uv_from_mesh_uv};
-}
 
 // `decals`: the lights of Frame::decals.
 LayerBinding make_layer(const SurfaceLayer& l, const TextureLibrary& library, std::span<const int> decals) {
@@ -52,6 +49,7 @@ Surface make_surface(const Material& m, const TextureLibrary& library, std::span
   s.emissive_texture = bind(m.emissive_texture, image::MipUse::colour, library);
   s.light_map = {bind(m.light_map.front, image::MipUse::data, library),
                  bind(m.light_map.back, image::MipUse::data, library), m.light_map.intensity};
+  if (m.lobes != nullptr) s.lobes = bind_lobes(*m.lobes, library);
   for (const SurfaceLayer& layer : m.layers) s.layers.push_back(make_layer(layer, library, decals));
   return s;
 }

@@ -21,7 +21,8 @@
 
 namespace laterna::frame {
 
-struct LampTable;  // frame/lamp_table.h
+struct LampTable;     // frame/lamp_table.h
+struct SurfaceLobes;  // frame/surface_lobes.h
 
 /// A picture as a material uses it.
 struct TextureBinding {
@@ -30,6 +31,8 @@ struct TextureBinding {
   int uv_set = 0;
   std::array<float, 6> uv_from_mesh_uv = {1, 0, 0, 0, 1, 0};
 };
+
+TextureBinding bind(const Texture& texture, image::MipUse use, const TextureLibrary& library);
 
 /// A SurfaceLayer with its picture found.
 struct LayerBinding {
@@ -59,6 +62,7 @@ struct Surface {
       emissive_texture;
   std::vector<LayerBinding> layers;
   LightMapBinding light_map;
+  std::shared_ptr<const SurfaceLobes> lobes;  ///< null: none
 };
 
 /// A light where it stands. Colour and intensity stay in the scene's Light.
@@ -156,6 +160,7 @@ class Frame {
 
   std::vector<Surface> surfaces;          // scene materials, then glTF's default
   std::vector<std::string> object_names;  // one per instance of a mesh
+  std::vector<float> object_scales;       // metres per unit of the mesh, the mean of all directions
   std::vector<PlacedLight> lights;
   // What lights refer to; one per distribution, however many lights have it.
   std::map<std::shared_ptr<const LightDistribution>, std::shared_ptr<const LampTable>> lamps;
@@ -168,6 +173,7 @@ class Frame {
   bool has_blended_casters = false;
   bool all_receive_shadows = true;
   bool has_environment = false;
+  bool has_transmission = false;
   std::shared_ptr<const TextureLibrary> textures;
 };
 

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "frame/decode_picture.h"
+#include "frame/surface_lobes.h"
 #include "image/film.h"
 
 namespace laterna::frame {
@@ -27,6 +28,8 @@ std::set<Request> requests(const Scene& scene) {
     want(m.emissive_texture, image::MipUse::colour);
     want(m.light_map.front, image::MipUse::data);
     want(m.light_map.back, image::MipUse::data);
+    for (std::size_t i = 0; m.lobes != nullptr && i < kLobeTextures; ++i)
+      want(*textures_of(*m.lobes)[i], kLobeTextureUses[i]);
     for (const SurfaceLayer& layer : m.layers) {
       want(layer.texture, kLayerUse);
       if (layer.projector < 0) continue;

@@ -21,6 +21,7 @@ Scene with_flat_normals(Scene scene) {
   for (Material& material : scene.materials) {
     material.normal_texture = material.metallic_roughness_texture = material.occlusion_texture = {};
     material.emissive_texture = {};
+    material.lobes = nullptr;
     if (material.alpha_mode == AlphaMode::opaque) material.base_color_texture = {};
   }
   for (Light& light : scene.lights) light.enabled = false;

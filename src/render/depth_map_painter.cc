@@ -45,7 +45,7 @@ DepthMapPainter::Bins DepthMapPainter::sort_casters(const raster::RasterView& vi
   raster::BinOptions options;
   options.cull = source_.faces == CasterFaces::back_only ? raster::CullFaces::front : raster::CullFaces::none;
   options.required_flags = kCastsShadow | (moving ? kMoves : 0U);
-  options.excluded_flags = kAlphaBlend | (which == Casters::standing ? kMoves : 0U);  // see shadow/panes.h
+  options.excluded_flags = kPaneFlags | (which == Casters::standing ? kMoves : 0U);  // see shadow/panes.h
   options.pixels = {0, 0, view.width, view.height};
   options.instruction_set = source_.instruction_set;
   BinsPool::Lease lease = source_.bins.take(source_.bins_owner | (moving ? kMovingBins : 0));

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "base/refuse.h"
 #include "base/stopwatch.h"
+#include "frame/surface_lobes.h"
 #include "light/decal_plan.h"
+#include "render/behind_picture.h"
 #include "render/channels.h"
 #include "render/cost_sum.h"
 #include "render/depth_map_painter.h"
@@ -120,12 +124,17 @@ void PictureDrawer::let_caches_rest() const {
 }
 
 Result<void> PictureDrawer::load_environment(const RendererOptions& options) {
+  if (frame::may_show(posed_.scene(), AnimatedProperty::transmission))
+    split_sum_ = std::make_unique<const shade::SplitSum>(shade::make_split_sum(pool_));
+  if (frame::may_show(posed_.scene(), AnimatedProperty::sheen_color))
+    sheen_ = std::make_unique<const shade::SheenAlbedo>(shade::make_sheen_albedo(pool_));
   if (!posed_.scene().environment) return {};
   Result<image::EnvironmentMap> map = prepare_environment(
       posed_.scene(), pool_, instruction_set_, options.environment_cache, options.environment_progress);
   if (!map) return tl::unexpected(std::move(map.error()));
   environment_ = std::make_unique<const image::EnvironmentMap>(std::move(*map));
-  split_sum_ = std::make_unique<const shade::SplitSum>(shade::make_split_sum(pool_));
+  if (split_sum_ == nullptr)
+    split_sum_ = std::make_unique<const shade::SplitSum>(shade::make_split_sum(pool_));
   return {};
 }
 
@@ -179,6 +188,7 @@ shade::ShaderJob PictureDrawer::make_job(const raster::RasterView& view, const R
   job.passes = settings.passes;
   if (environment_ != nullptr)
     job.environment.emplace(*posed_.scene().environment, *environment_, *split_sum_, posed_.scene().phong);
+  job.lobes = {split_sum_.get(), sheen_.get(), nullptr};
   const bool is_hidden = job.environment && job.environment->is_visible;
   job.background = posed_.scene().background && !is_hidden ? &*posed_.scene().background : nullptr;
   job.wanted = wanted_layers(settings);
@@ -212,7 +222,7 @@ void PictureDrawer::add_lights(const raster::RasterView::Ray& ray, const RenderS
 
 // Triangles sorted by tile, then tiles shaded, one band of tile rows after the other.
 void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSettings& settings,
-                               shade::ShaderJob& job, const PictureWriter& writer,
+                               shade::ShaderJob& job, std::uint32_t excluded, const PictureWriter& writer,
                                RenderStatistics& statistics, ProgressReport& progress) const {
   const int tiles_x = raster::tiles_across(settings.width);
   const int tiles_y = raster::tiles_across(settings.height);
@@ -223,6 +233,7 @@ void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSetti
   raster::BinOptions options;
   options.cull = raster::CullFaces::single_sided;
   options.required_flags = kVisible;
+  options.excluded_flags = excluded;
   options.instruction_set = instruction_set_;
   for (const shade::SampleOffset& offset : shade::sample_offsets(settings.samples, job.jitter)) {
     options.sample_reach = std::max({options.sample_reach, std::abs(offset.x), std::abs(offset.y)});
@@ -264,6 +275,28 @@ void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSetti
   }
 }
 
+// Whether what lies behind some surfaces is to be seen through them.
+bool PictureDrawer::looks_through(const RenderSettings& settings) const {
+  return frame().has_transmission && settings.shading == ShadingModel::pbr;
+}
+
+// The same picture without what light goes through: those surfaces then show it, refracted.
+Result<shade::EarlierView> PictureDrawer::draw_behind(const raster::RasterView& view,
+                                                      const RenderSettings& settings, shade::ShaderJob& job,
+                                                      RenderStatistics& statistics,
+                                                      ProgressReport& progress) const {
+  RenderSettings plain = settings;
+  plain.layers = {};
+  BehindPicture picture(settings.width, settings.height);
+  const Result<PictureWriter> writer =
+      PictureWriter::create(plain, picture.target(), frame(), instruction_set_);
+  if (!writer) return tl::unexpected(writer.error());
+  const shade::WantedLayers wanted = std::exchange(job.wanted, wanted_layers(plain));
+  draw_bands(view, plain, job, kTransmissive, *writer, statistics, progress);
+  job.wanted = wanted;
+  return picture.seen_from(view, instruction_set_);
+}
+
 // One picture: everything as it is at one sample of what is averaged.
 RenderStatistics PictureDrawer::draw_picture(const View& from, const RenderSettings& settings,
                                              SampleIndex sample, const PictureWriter& writer,
@@ -281,7 +314,12 @@ RenderStatistics PictureDrawer::draw_picture(const View& from, const RenderSetti
   shade::ShaderJob job = make_job(view, settings, plan, statistics, progress);
   job.jitter = jitter_of(sample);
   statistics.shadow_ms = watch.lap_ms();
-  if (!progress.is_cancelled()) draw_bands(view, settings, job, writer, statistics, progress);
+  std::optional<shade::EarlierView> behind;
+  if (looks_through(settings) && !progress.is_cancelled()) {
+    Result<shade::EarlierView> drawn = draw_behind(view, settings, job, statistics, progress);
+    if (drawn) job.lobes.behind = &behind.emplace(std::move(*drawn));
+  }
+  if (!progress.is_cancelled()) draw_bands(view, settings, job, 0, writer, statistics, progress);
   for (std::size_t i = 0; i < job.lights.size(); ++i)
     report_drawn(plan.lights.lights[i], job.lights[i].shadow.get(), statistics);
   work.report(statistics.map_reuse);
@@ -333,7 +371,8 @@ Result<RenderStatistics> PictureDrawer::draw(const View& from, const RenderSetti
   auto drawing = std::make_unique<const Drawing>(*this);
   ProgressReport report(progress, static_cast<std::size_t>(raster::tiles_across(settings.width)) *
                                       static_cast<std::size_t>(raster::tiles_across(settings.height)) *
-                                      static_cast<std::size_t>(settings.accumulate));
+                                      static_cast<std::size_t>(settings.accumulate) *
+                                      (looks_through(settings) ? 2 : 1));
   Result<RenderStatistics> statistics = settings.accumulate == 1
                                             ? draw_picture(from, settings, {}, *writer, report)
                                             : draw_mean(from, settings, destination, report);

@@ -20,6 +20,7 @@
 #include "render/progress_report.h"
 #include "render/reuse_pool.h"
 #include "render/shadow_casting.h"
+#include "shade/sheen_albedo.h"
 #include "shade/split_sum.h"
 #include "shade/tile_shader.h"
 
@@ -39,7 +40,7 @@ class PictureDrawer {
         maps_(posed.caster_changes()),
         paraboloids_(posed.caster_changes()) {}
 
-  /// What shines from all around is made ready; nothing where nothing does.
+  /// What shines from all around is made ready; nothing where nothing does. So are tables that materials ask for.
   Result<void> load_environment(const RendererOptions& options);
 
   /// Before a picture of a mean is drawn: brings the scene to the instant of that picture, and gives the view of it.
@@ -87,8 +88,14 @@ class PictureDrawer {
   void add_lights(const raster::RasterView::Ray& ray, const RenderSettings& settings,
                   const light::LightPlan& plan, ShadowCasting& casting, ProgressReport& progress,
                   shade::ShaderJob& job) const;
+  // `excluded`: no clusters with any of these flags.
   void draw_bands(const raster::RasterView& view, const RenderSettings& settings, shade::ShaderJob& job,
-                  const PictureWriter& writer, RenderStatistics& statistics, ProgressReport& progress) const;
+                  std::uint32_t excluded, const PictureWriter& writer, RenderStatistics& statistics,
+                  ProgressReport& progress) const;
+  [[nodiscard]] bool looks_through(const RenderSettings& settings) const;
+  Result<shade::EarlierView> draw_behind(const raster::RasterView& view, const RenderSettings& settings,
+                                         shade::ShaderJob& job, RenderStatistics& statistics,
+                                         ProgressReport& progress) const;
   RenderStatistics draw_picture(const View& from, const RenderSettings& settings, SampleIndex sample,
                                 const PictureWriter& writer, ProgressReport& progress) const;
   Result<RenderStatistics> draw_mean(const View& from, const RenderSettings& settings,
@@ -99,7 +106,8 @@ class PictureDrawer {
   InstructionSet instruction_set_;
   std::uint64_t cache_bytes_;  // that are kept between pictures
   std::unique_ptr<const image::EnvironmentMap> environment_;
-  std::unique_ptr<const shade::SplitSum> split_sum_;
+  std::unique_ptr<const shade::SplitSum> split_sum_;  // of environments and transmission
+  std::unique_ptr<const shade::SheenAlbedo> sheen_;
   mutable BinsPool bins_;
   mutable DepthMapCache maps_;
   mutable ParaboloidMapCache paraboloids_;

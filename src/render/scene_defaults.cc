@@ -43,7 +43,7 @@ void add_missing_tangents(Scene& scene) {
     for (Primitive& primitive : mesh.primitives) {
       if (primitive.material < 0 || !primitive.tangents.empty()) continue;
       const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
-      if (material.normal_texture.is_set()) complete_attributes(primitive, &material, {}, mesh.name, faults);
+      if (tangent_uv_set(material)) complete_attributes(primitive, &material, {}, mesh.name, faults);
     }
   }
   scene.warnings.insert(scene.warnings.end(), faults.warnings().begin(), faults.warnings().end());

@@ -63,7 +63,7 @@ void SilhouettePainter::paint(std::uint32_t object, const raster::RasterView& vi
   raster::BinOptions options;
   options.cull = faces_ == CasterFaces::back_only ? raster::CullFaces::front : raster::CullFaces::none;
   options.required_flags = kCastsShadow;
-  options.excluded_flags = kAlphaBlend;  // see shadow/panes.h
+  options.excluded_flags = kPaneFlags;  // see shadow/panes.h
   options.pixels = {0, 0, view.width, view.height};
   options.instruction_set = set_;
   const BinsPool::Lease bins = bins_.take(kBinsOwner);

@@ -42,6 +42,9 @@ int component_count(AnimatedProperty property) {
     case AnimatedProperty::scale:
     case AnimatedProperty::light_color:
     case AnimatedProperty::emissive:
+    case AnimatedProperty::specular_color:
+    case AnimatedProperty::sheen_color:
+    case AnimatedProperty::attenuation_color:
       return 3;
     case AnimatedProperty::texture_offset:
     case AnimatedProperty::texture_scale:

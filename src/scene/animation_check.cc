@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
+#include "laterna/material_lobes.h"
 #include "scene/number_scans.h"
 
 namespace laterna {
@@ -167,6 +168,14 @@ class AnimationCheck {
     return {scene_.materials.size(), "materials"};
   }
 
+  void check_texture(const ClipChannel& channel, const std::string& place) {
+    const bool of_lobes = channel.property >= AnimatedProperty::texture_offset &&
+                          scene_.materials[static_cast<std::size_t>(channel.target)].lobes != nullptr;
+    const int last = 4 + (of_lobes ? static_cast<int>(kLobeTextures) : 0);
+    if (channel.texture < 0 || channel.texture > last)
+      faults_.error(place + ".texture", fmt::format("expected 0 to {}, got {}", last, channel.texture));
+  }
+
   void check_channel(const Clip& clip, const ClipChannel& channel, const std::string& place) {
     if (channel.property > AnimatedProperty::texture_scale)
       return faults_.error(place + ".property", "is no value of the enumeration");
@@ -175,8 +184,7 @@ class AnimationCheck {
       return check_index(place + ".target", channel.target, count, list);
     if (channel.keys < 0 || static_cast<std::size_t>(channel.keys) >= clip.keys.size())
       return check_index(place + ".keys", channel.keys, clip.keys.size(), "keys");
-    if (channel.texture < 0 || channel.texture > 4)
-      faults_.error(place + ".texture", fmt::format("expected 0 to 4, got {}", channel.texture));
+    check_texture(channel, place);
     const KeyFrames& keys = clip.keys[static_cast<std::size_t>(channel.keys)];
     if (changes_light(channel)) check_light(channel, keys, place);
     auto components = static_cast<std::size_t>(component_count(channel.property));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scene/gltf_extension.h"
+#include "scene/lobe_factors.h"
 #include "scene/spelling.h"
 
 namespace laterna::gltf {
@@ -58,6 +59,42 @@ constexpr NamedProperty kOfTexture[] = {{"/extensions/KHR_texture_transform/offs
                                         {"/extensions/KHR_texture_transform/rotation", P::texture_rotation},
                                         {"/extensions/KHR_texture_transform/scale", P::texture_scale}};
 
+// "extensions/KHR_materials_ior/ior" and the like.
+std::string pointer_of(std::string_view extension, std::string_view member) {
+  return fmt::format("extensions/{}/{}", extension, member);
+}
+
+// Texture transforms of a material, and what its lobes have; `path` leads from the material.
+std::optional<NamedProperty> find_material_property(std::string_view path) {
+  for (const LobeFactor& factor : lobe_factors()) {
+    if (path == pointer_of(factor.extension, factor.member)) return NamedProperty{path, factor.property};
+  }
+  const auto is_below = [&](std::string_view texture) { return path.substr(0, texture.size()) == texture; };
+  const auto find_transform = [&](std::string_view texture,
+                                  std::size_t number) -> std::optional<NamedProperty> {
+    for (const NamedProperty& property : kOfTexture) {
+      if (property.path == path.substr(texture.size()))
+        return NamedProperty{property.path, property.property, static_cast<int>(number)};
+    }
+    return std::nullopt;
+  };
+  for (std::size_t i = 0; i < kTextures.size(); ++i) {
+    if (is_below(kTextures[i])) return find_transform(kTextures[i], i);
+  }
+  for (std::size_t i = 0; i < kLobeTextures; ++i) {
+    const std::string texture = pointer_of(lobe_textures()[i].extension, lobe_textures()[i].member);
+    if (is_below(texture + "/")) return find_transform(texture, kTextures.size() + i);
+  }
+  return std::nullopt;
+}
+
+// A material's texture by its number, as it is reached from the material.
+std::string texture_pointer(std::size_t number) {
+  if (number < kTextures.size()) return std::string(kTextures[number]);
+  const LobeTexture& texture = lobe_textures()[number - kTextures.size()];
+  return pointer_of(texture.extension, texture.member);
+}
+
 std::optional<NamedProperty> find_property(Kind kind, std::string_view path) {
   std::span<const NamedProperty> known;
   switch (kind) {
@@ -80,14 +117,7 @@ std::optional<NamedProperty> find_property(Kind kind, std::string_view path) {
   for (const NamedProperty& property : known) {
     if (property.path == path) return property;
   }
-  for (std::size_t i = 0; kind == Kind::material && i < kTextures.size(); ++i) {
-    if (path.substr(0, kTextures[i].size()) != kTextures[i]) continue;
-    for (const NamedProperty& property : kOfTexture) {
-      if (property.path == path.substr(kTextures[i].size()))
-        return NamedProperty{property.path, property.property, static_cast<int>(i)};
-    }
-  }
-  return std::nullopt;
+  return kind == Kind::material ? find_material_property(path) : std::nullopt;
 }
 
 // A value deep in the file: "pbrMetallicRoughness/baseColorTexture" of a material. Null where it is not there.
@@ -202,6 +232,11 @@ std::optional<Animations::Target> Animations::parse_pointer(JsonObject& place, c
         path.empty() ? std::nullopt : find_property(kind, path.substr(1));
     if (!property) break;
     const JsonValue& value = values->children[index];
+    // Lobes have defaults, but pictures that are not there have no place.
+    if (property->property >= P::texture_offset &&
+        static_cast<std::size_t>(property->texture) >= kTextures.size() &&
+        descend(&value, texture_pointer(static_cast<std::size_t>(property->texture))) == nullptr)
+      break;
     // A camera of the other kind has no such lens; other members have defaults.
     if (kind == Kind::camera && descend(&value, path.substr(1, path.find('/', 1) - 1)) == nullptr) {
       place.error("pointer",
@@ -419,7 +454,8 @@ class Animations::ClipReader {
             descend(&material, "extensions/KHR_materials_emissive_strength/emissiveStrength");
         add_constant(channel.target, P::emissive_strength, 0, {strength == nullptr ? 1 : strength->number});
       } else if (channel.property >= P::texture_offset) {
-        add_transform(channel, descend(&material, kTextures[static_cast<std::size_t>(channel.texture)]));
+        add_transform(channel,
+                      descend(&material, texture_pointer(static_cast<std::size_t>(channel.texture))));
       }
     }
   }

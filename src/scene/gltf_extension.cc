@@ -13,7 +13,7 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 18> kRead = {
+constexpr std::array<std::string_view, 26> kRead = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
@@ -21,8 +21,16 @@ constexpr std::array<std::string_view, 18> kRead = {
     "KHR_animation_pointer",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "LATERNA_light_map",
@@ -39,16 +47,8 @@ struct LookChanger {
   std::string_view name, what;
 };
 
-constexpr std::array<LookChanger, 19> kChangeTheLook = {{
-    {"KHR_materials_transmission", "see-through materials look opaque"},
-    {"KHR_materials_volume", "see-through materials look opaque"},
+constexpr std::array<LookChanger, 11> kChangeTheLook = {{
     {"KHR_materials_diffuse_transmission", "thin materials let no light through"},
-    {"KHR_materials_clearcoat", "coats are left out"},
-    {"KHR_materials_sheen", "cloth loses its sheen"},
-    {"KHR_materials_specular", "highlights have their standard strength and colour"},
-    {"KHR_materials_ior", "highlights have their standard strength"},
-    {"KHR_materials_iridescence", "films of colour are left out"},
-    {"KHR_materials_anisotropy", "brushed metal is smooth in every direction"},
     {"KHR_materials_dispersion", "glass has no colour fringes"},
     {"KHR_materials_pbrSpecularGlossiness",
      "materials are approximated: the diffuse colour becomes the base colour"},

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "scene/gltf_light_map.h"
+#include "scene/gltf_lobes.h"
 #include "scene/texture_transform.h"
 
 namespace laterna::gltf {
@@ -48,6 +49,9 @@ class MaterialWriter {
         fault_ = std::move(written.error());
     }
     if (material.unlit) document_.extend(json, "KHR_materials_unlit", Json::object());
+    write_lobes(material, document_, json, [this](Json& object, const char* name, const Texture& texture) {
+      set_texture(object, name, texture);
+    });
     if (fault_) return tl::unexpected(std::move(*fault_));
     if (json.is_null()) json = Json::object();
     return json;

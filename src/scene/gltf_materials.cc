@@ -6,6 +6,7 @@
 
 #include "scene/gltf_extension.h"
 #include "scene/gltf_light_map.h"
+#include "scene/gltf_lobes.h"
 
 namespace laterna::gltf {
 namespace {
@@ -114,6 +115,7 @@ Material read_material(const JsonDocument& json, const JsonValue& value, Texture
   material.double_sided = object.boolean("doubleSided").value_or(false);
   read_light_map(json, value, textures, faults, material.light_map);
   material.unlit = find_extension(value, "KHR_materials_unlit") != nullptr;
+  read_lobes(json, value, textures, faults, material);
   return material;
 }
 

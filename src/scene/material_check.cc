@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scene/lobe_factors.h"
 #include "scene/scene_check.h"
 #include "scene/spelling.h"
 
@@ -26,6 +27,7 @@ class MaterialCheck : SceneCheck {
   void check_texture(const Texture& texture, const std::string& place);
   void check_material(const Material& material, const std::string& place);
   void check_layers(const Material& material, const std::string& place);
+  void check_lobes(const MaterialLobes& lobes, const std::string& place);
   void check_layer_projector(const SurfaceLayer& layer, const std::string& place);
 };
 
@@ -98,6 +100,21 @@ void MaterialCheck::check_material(const Material& material, const std::string& 
   check_texture(material.light_map.back, place + ".light_map.back");
   check_number(place + ".light_map.intensity", material.light_map.intensity, 0, kMaxRadiance);
   check_layers(material, place + ".layers");
+  if (material.lobes != nullptr) check_lobes(*material.lobes, place + ".lobes.");
+}
+
+void MaterialCheck::check_lobes(const MaterialLobes& lobes, const std::string& place) {
+  for (const LobeFactor& factor : lobe_factors()) {
+    const std::span<const float> values = factor.of(lobes);
+    const std::string at = place + std::string(factor.field);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!factor.allows(values[i]))
+        check_number(values.size() > 1 ? item(at, i) : at, values[i], factor.low, factor.high);
+    }
+  }
+  const std::array<const Texture*, kLobeTextures> textures = textures_of(lobes);
+  for (std::size_t i = 0; i < kLobeTextures; ++i)
+    check_texture(*textures[i], place + std::string(lobe_textures()[i].field));
 }
 
 void MaterialCheck::check_layers(const Material& material, const std::string& place) {

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "scene/lobe_factors.h"
 #include "scene/node_path.h"
 #include "scene/node_selection.h"
 #include "scene/spelling.h"
@@ -103,6 +104,8 @@ MergedIndices SceneMerger::add(Scene scene, const std::string& file) {
           &material.light_map.back}) {
       remap_picture(texture->picture, picture);
     }
+    for (std::size_t i = 0; material.lobes != nullptr && i < kLobeTextures; ++i)
+      remap_picture(lobe_texture_of(material, i).picture, picture);
     for (SurfaceLayer& layer : material.layers) {
       remap_picture(layer.texture.picture, picture);
       shift(layer.projector, merged_.lights.size());

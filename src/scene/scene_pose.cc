@@ -7,6 +7,7 @@
 
 #include "base/elementary.h"
 #include "scene/key_frames.h"
+#include "scene/lobe_factors.h"
 
 namespace laterna {
 namespace {
@@ -88,7 +89,9 @@ Texture& texture_of(Material& material, int number) {
   Texture* const textures[] = {&material.base_color_texture, &material.metallic_roughness_texture,
                                &material.normal_texture, &material.occlusion_texture,
                                &material.emissive_texture};
-  return *textures[number];
+  constexpr int kOwn = std::size(textures);
+  return number < kOwn ? *textures[number]
+                       : lobe_texture_of(material, static_cast<std::size_t>(number - kOwn));
 }
 
 // KHR_texture_transform: uv' = translation · rotation · scale · uv, factor by factor from the left.
@@ -142,6 +145,8 @@ void set_material_value(Material& material, const ClipChannel& channel, std::spa
       material.occlusion_strength = to_float(v[0], 0, 1);
       return;
     default:
+      if (const LobeFactor* factor = find_lobe_factor(channel.property))
+        return set_lobe_factor(material, *factor, v);
       return multiply_texture(texture_of(material, channel.texture), channel.property, v);
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "laterna/material_lobes.h"
 #include "scene/normals.h"
 #include "scene/spelling.h"
 #include "scene/tangents.h"
@@ -48,13 +49,25 @@ std::vector<const Texture*> textures_of(const Material& material) {
                                           &material.normal_texture,     &material.occlusion_texture,
                                           &material.emissive_texture,   &material.light_map.front,
                                           &material.light_map.back};
+  if (material.lobes != nullptr) {
+    for (const Texture* texture : textures_of(*material.lobes)) textures.push_back(texture);
+  }
   for (const SurfaceLayer& layer : material.layers) textures.push_back(&layer.texture);
   return textures;
 }
 
+std::optional<int> tangent_uv_set(const Material& material) {
+  if (material.normal_texture.is_set()) return material.normal_texture.uv_set;
+  if (material.lobes == nullptr) return std::nullopt;
+  const MaterialLobes& lobes = *material.lobes;
+  if (lobes.clearcoat.normal_texture.is_set()) return lobes.clearcoat.normal_texture.uv_set;
+  if (lobes.anisotropy.texture.is_set()) return lobes.anisotropy.texture.uv_set;
+  return lobes.anisotropy.strength > 0 ? std::optional<int>(0) : std::nullopt;
+}
+
 void complete_moving_attributes(Primitive& primitive, const Material* material, const std::string& place,
                                 FaultList& faults) {
-  if (material != nullptr && material->normal_texture.is_set())
+  if (material != nullptr && tangent_uv_set(*material))
     return complete_attributes(primitive, material, std::nullopt, place, faults);
   if (material != nullptr) complete_texture_coordinates(primitive, *material, place, faults);
 }
@@ -69,9 +82,14 @@ void complete_attributes(Primitive& primitive, const Material* material, std::op
   repair_tangents(primitive);
   if (material == nullptr) return;
   complete_texture_coordinates(primitive, *material, place, faults);
-  if (material->normal_texture.is_set() && primitive.tangents.empty()) {
-    compute_tangents(primitive, material->normal_texture.uv_set);
-  }
+  const std::optional<int> uv_set = tangent_uv_set(*material);
+  if (!uv_set || !primitive.tangents.empty()) return;
+  // Of a mesh without texture coordinates no direction is more along it than another.
+  std::vector<glm::vec2>& uv = primitive.uv[static_cast<std::size_t>(*uv_set)];
+  const bool is_made_up = uv.empty();
+  if (is_made_up) uv.assign(primitive.positions.size(), glm::vec2(0));
+  compute_tangents(primitive, *uv_set);
+  if (is_made_up) uv.clear();
 }
 
 }  // namespace laterna

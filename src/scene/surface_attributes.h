@@ -11,7 +11,7 @@
 namespace laterna {
 
 /// Fills in texture coordinates that the material's textures use (zero, with a warning), repairs normals and
-/// tangents without length, and computes tangents where there is a normal map. Without normals: flat ones, or
+/// tangents without length, and computes tangents where the material needs them. Without normals: flat ones, or
 /// smooth ones up to `crease`. `place` is the primitive's, for warnings.
 void complete_attributes(Primitive& primitive, const Material* material, std::optional<Angle> crease,
                          const std::string& place, FaultList& faults);
@@ -21,7 +21,10 @@ void complete_attributes(Primitive& primitive, const Material* material, std::op
 void complete_moving_attributes(Primitive& primitive, const Material* material, const std::string& place,
                                 FaultList& faults);
 
-/// The textures of a material, in a fixed order: its own, then its layers'.
+/// The texture coordinates that tangents run along, where a material's maps or brushed lobes need tangents.
+std::optional<int> tangent_uv_set(const Material& material);
+
+/// The textures of a material, in a fixed order: its own, then its lobes' and its layers'.
 std::vector<const Texture*> textures_of(const Material& material);
 
 }  // namespace laterna

@@ -87,6 +87,10 @@ class TileShader::Worker {
       most_layers_ = std::max(most_layers_, surface.layers.size());
     if (most_layers_ > 0)
       layer_painter_ = std::make_unique<LayerPainter>(source_, job.decals, job.instruction_set);
+    if (job.reflection.model == ShadingModel::pbr &&
+        std::any_of(job.frame->surfaces.begin(), job.frame->surfaces.end(),
+                    [](const frame::Surface& surface) { return surface.lobes != nullptr; }))
+      lobe_shader_ = std::make_unique<LobeShader>(source_, job.lobes, job.instruction_set);
     if (std::any_of(job.lights.begin(), job.lights.end(), does_not_add))
       light_blender_ = std::make_unique<LightBlender>(job.instruction_set);
     has_lights_to_leave_out_ =
@@ -297,13 +301,15 @@ class TileShader::Worker {
     const bool sums = targets.size() == 1;
     const std::size_t groups = samples_->group_count;
     find_surface_points_(source_, surface, *samples_, *points_);
+    lobes_ = surface.unlit || surface.lobes == nullptr ? nullptr : lobe_shader_.get();
+    if (lobes_ != nullptr) lobes_->start(surface, *samples_, *points_);
     end_stage(Stage::surface);
     if (photographs_ != nullptr) paint_photographs(is_opaque);
     if (!surface.layers.empty()) lay_layers(surface, is_opaque);
     if (light_blender_ != nullptr)
       light_blender_->start(*samples_, targets.subspan(0, part.first_light == 0 ? 0 : part.first_light + 1));
     if (part.ambient) {
-      find_ambient_(job_.reflection, surface, groups, *points_, *radiance_);
+      find_ambient(surface);
       if (surface.light_map.front.chain != nullptr && !surface.unlit)
         add_light_map_(source_, job_.reflection, surface.light_map, *samples_, *points_, *radiance_);
       if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
@@ -327,16 +333,30 @@ class TileShader::Worker {
         blend_light(shader_light, seen, sums, targets, light);
         continue;
       }
-      reflect_(job_.reflection, groups, *points_, *irradiance_, seen, shader_light.tone.fill(), sums,
-               *radiance_);
+      reflect(seen, shader_light.tone.fill(), sums, *radiance_);
       if (!sums) scatter_radiance_(*samples_, *radiance_, targets[light + 1]);
     }
     if (part.environment && !surface.unlit) {
-      reflect_environment_(*job_.environment, job_.reflection, *samples_, *points_, sums, *radiance_);
+      reflect_environment(sums);
       if (!sums) scatter_radiance_(*samples_, *radiance_, targets.back());
     }
     if (sums) scatter_radiance_(*samples_, *radiance_, targets[0]);
     end_stage(Stage::light);
+  }
+
+  void find_ambient(const frame::Surface& surface) {
+    if (lobes_ != nullptr) return lobes_->find_ambient(job_.reflection, *radiance_);
+    find_ambient_(job_.reflection, surface, samples_->group_count, *points_, *radiance_);
+  }
+
+  void reflect(const shadow::Arrival& arrival, float fill, bool add, Radiance& radiance) {
+    if (lobes_ != nullptr) return lobes_->reflect(*irradiance_, arrival, fill, add, radiance);
+    reflect_(job_.reflection, samples_->group_count, *points_, *irradiance_, arrival, fill, add, radiance);
+  }
+
+  void reflect_environment(bool add) {
+    if (lobes_ != nullptr) return lobes_->reflect_environment(*job_.environment, add, *radiance_);
+    reflect_environment_(*job_.environment, job_.reflection, *samples_, *points_, add, *radiance_);
   }
 
   // Light that meets light of other modes than add.
@@ -344,11 +364,10 @@ class TileShader::Worker {
                    std::span<const ColorTarget> targets, std::size_t index) {
     const std::size_t groups = samples_->group_count;
     Radiance& change = light_blender_->change();
-    reflect_(job_.reflection, groups, *points_, *irradiance_, seen, light.tone.fill(), false, change);
+    reflect(seen, light.tone.fill(), false, change);
     if (light.open) {
       find_irradiance(*light.open);
-      reflect_(job_.reflection, groups, *points_, *irradiance_, light_blender_->unhindered(), 0, false,
-               light_blender_->open());
+      reflect(light_blender_->unhindered(), 0, false, light_blender_->open());
       light_blender_->blend(light.open->light->blend, groups);
     } else {
       light_blender_->add(groups);
@@ -418,6 +437,7 @@ class TileShader::Worker {
       coordinates = coordinates_.get();
     }
     find_irradiance_(light, *samples_, *points_, coordinates, *irradiance_);
+    if (lobes_ != nullptr) lobes_->widen(*irradiance_);
   }
 
   // Of the lit samples, or of all where a layer shows it. Returns what ShadowTechnique::find_arrival does.
@@ -594,6 +614,8 @@ class TileShader::Worker {
   std::unique_ptr<LayerPainter> layer_painter_;     // null: no surface has layers
   TileColor base_colors_;                        // of the tile's surfaces that have layers, with many passes
   std::unique_ptr<LightBlender> light_blender_;  // null: all lights add
+  std::unique_ptr<LobeShader> lobe_shader_;      // null: no surface shows lobes
+  LobeShader* lobes_ = nullptr;                  // of the batch; null: its surface has none
   TileResult result_;
   TileLayers layers_;
 

@@ -20,7 +20,7 @@ struct PaneCrossing {
 /// What a surface with this base colour and alpha lets through, channel by channel: 1 − alpha (1 − color). A pane that
 /// covers to the share alpha, and where it covers passes its own colour (McGuire and Enderton, Colored stochastic shadow
 /// maps, 2011, with the base colour as transmission). Alpha 1 lets nothing through: what is drawn as opaque casts a
-/// shadow as what is opaque.
+/// shadow as what is opaque. Of surfaces with transmission (KHR_materials_transmission), see docs/materials.md.
 struct PaneColor {
   float r, g, b;
 };

@@ -22,6 +22,7 @@ using ThreeArguments = void (*)(Numbers x, Numbers y, Numbers z, Results result)
 
 OneArgument exponentials_for(InstructionSet set);
 OneArgument logarithms_for(InstructionSet set);
+OneArgument cosines_for(InstructionSet set);
 OneArgument saturated_for(InstructionSet set);
 TwoArguments powers_for(InstructionSet set);
 

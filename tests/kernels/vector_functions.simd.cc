@@ -29,6 +29,10 @@ void logarithms(Numbers x, Results result) {
   for (std::size_t i = 0; i < x.size(); i += kLanes)
     hn::Store(Logarithm2(At(x, i)), FloatTag(), result.data() + i);
 }
+void cosines(Numbers x, Results result) {
+  for (std::size_t i = 0; i < x.size(); i += kLanes)
+    hn::Store(Cosine(At(x, i)), FloatTag(), result.data() + i);
+}
 
 void saturated(Numbers x, Results result) {
   for (std::size_t i = 0; i < x.size(); i += kLanes)
@@ -96,6 +100,7 @@ HWY_AFTER_NAMESPACE();
 namespace laterna::kernels {
 LATERNA_KERNEL_TABLE(exponentials)
 LATERNA_KERNEL_TABLE(logarithms)
+LATERNA_KERNEL_TABLE(cosines)
 LATERNA_KERNEL_TABLE(saturated)
 LATERNA_KERNEL_TABLE(powers)
 LATERNA_KERNEL_TABLE(normalise)

@@ -53,6 +53,20 @@ class VectorFunctions : public testing::TestWithParam<InstructionSet> {
   }
 };
 
+TEST_P(VectorFunctions, CosineHasAnAbsoluteErrorBelow1e6PlusItsArgumentsRounding) {
+  for (const float most : {4.0F, 1000.0F, 1e5F}) {
+    const Floats x = spread(-most, most);
+    const Floats y = apply(cosines_for(GetParam()), x);
+    for (std::size_t i = 0; i < kCount; ++i)
+      ASSERT_NEAR(y[i], std::cos(static_cast<double>(x[i])),
+                  1e-6 + 2e-7 * std::abs(static_cast<double>(x[i])))
+          << x[i];
+    if (GetParam() != InstructionSet::scalar) {
+      EXPECT_TRUE(same_bits(y, apply(cosines_for(InstructionSet::scalar), x)));
+    }
+  }
+}
+
 TEST_P(VectorFunctions, ExponentialHasARelativeErrorBelow2e7) {
   const Floats x = spread(-126, 127);
   const Floats y = apply(exponentials_for(GetParam()), x);

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "laterna/lamps.h"
+#include "scene/lobe_factors.h"
 
 namespace laterna::reference {
 namespace {
@@ -80,6 +81,15 @@ class Comparison {
     check(at + ".alpha_mode", a.alpha_mode == b.alpha_mode);
     check(at + ".alpha_cutoff", a.alpha_mode != AlphaMode::mask || a.alpha_cutoff == b.alpha_cutoff);
     check(at + ".double_sided", a.double_sided == b.double_sided && a.unlit == b.unlit);
+    compare_lobes(at + ".lobes.", a.lobes == nullptr ? MaterialLobes() : *a.lobes,
+                  b.lobes == nullptr ? MaterialLobes() : *b.lobes);
+  }
+
+  void compare_lobes(const std::string& at, const MaterialLobes& a, const MaterialLobes& b) {
+    for (const LobeFactor& factor : lobe_factors())
+      check(at + std::string(factor.field), std::ranges::equal(factor.of(a), factor.of(b)));
+    for (std::size_t i = 0; i < kLobeTextures; ++i)
+      compare_texture(at + std::string(lobe_textures()[i].field), *textures_of(a)[i], *textures_of(b)[i]);
   }
 
   void compare_meshes(const std::string& at, const Mesh& a, const Mesh& b) {
