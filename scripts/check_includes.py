@@ -47,6 +47,7 @@ PUBLIC_HEADERS = {
     "output.h": "base",
     "polar_plot.h": "measure",
     "probes.h": "render",
+    "relief.h": "scene",
     "render.h": "render",
     "photograph_files.h": "scene",
     "photographs.h": "scene",

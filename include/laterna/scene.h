@@ -31,6 +31,7 @@
 namespace laterna {
 
 struct LightDistribution;  // laterna/lamps.h
+struct Relief;             // laterna/relief.h
 
 // ---------------------------------------------------------------------------------------------- pictures in a scene
 
@@ -97,6 +98,7 @@ struct Material {
   bool double_sided = false;
   bool unlit = false;                ///< KHR_materials_unlit: base colour is what is seen
   std::vector<SurfaceLayer> layers;  ///< at most kMaxSurfaceLayers
+  std::shared_ptr<const Relief> relief;  ///< null: flat
 };
 
 /// Triangles of one material. Attributes are empty or as long as `positions`.

@@ -27,6 +27,7 @@ enum ClusterFlag : std::uint32_t {
   kCastsShadow = 1U << 3U,
   kReceivesShadow = 1U << 4U,
   kVisible = 1U << 5U,  // to cameras
+  kRelief = 1U << 6U,   // cameras see it displaced
 };
 
 struct Cluster {

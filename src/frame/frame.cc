@@ -10,6 +10,7 @@
 #include "base/elementary.h"
 #include "frame/flatten.h"
 #include "frame/place_lights.h"
+#include "laterna/relief.h"
 
 namespace laterna::frame {
 namespace {
@@ -51,6 +52,11 @@ Surface make_surface(const Material& m, const TextureLibrary& library, std::span
   s.occlusion_texture = bind(m.occlusion_texture, image::MipUse::data, library);
   s.emissive_texture = bind(m.emissive_texture, image::MipUse::colour, library);
   for (const SurfaceLayer& layer : m.layers) s.layers.push_back(make_layer(layer, library, decals));
+  if (has_relief(m)) {
+    const Relief& r = *m.relief;
+    s.relief = {library.find_relief(r),          r.texture.uv_set, r.texture.uv_from_mesh_uv,
+                static_cast<float>(r.depth), r.self_shadow,    r.cut_edges};
+  }
   return s;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scene/gltf_extension.h"
+#include "scene/gltf_relief.h"
 
 namespace laterna::gltf {
 namespace {
@@ -112,6 +113,7 @@ Material read_material(const JsonDocument& json, const JsonValue& value, Texture
       factor(object, "alphaCutoff", 0.5, 2);  // above 1: nothing is left, as the standard says
   material.double_sided = object.boolean("doubleSided").value_or(false);
   material.unlit = find_extension(value, "KHR_materials_unlit") != nullptr;
+  material.relief = read_relief(json, value, textures, material.name, faults);
   return material;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "laterna/relief.h"
 #include "scene/scene_check.h"
 #include "scene/spelling.h"
 
@@ -26,6 +27,7 @@ class MaterialCheck : SceneCheck {
   void check_texture(const Texture& texture, const std::string& place);
   void check_material(const Material& material, const std::string& place);
   void check_layers(const Material& material, const std::string& place);
+  void check_relief(const Material& material, const std::string& place);
   void check_layer_projector(const SurfaceLayer& layer, const std::string& place);
 };
 
@@ -95,6 +97,7 @@ void MaterialCheck::check_material(const Material& material, const std::string& 
   check_texture(material.occlusion_texture, place + ".occlusion_texture");
   check_texture(material.emissive_texture, place + ".emissive_texture");
   check_layers(material, place + ".layers");
+  check_relief(material, place + ".relief");
 }
 
 void MaterialCheck::check_layers(const Material& material, const std::string& place) {
@@ -109,6 +112,16 @@ void MaterialCheck::check_layers(const Material& material, const std::string& pl
     check_number(at + ".opacity", layer.opacity, 0, 1);
     check_enumerator(at + ".blend", layer.blend, BlendMode::dot3);
   }
+}
+
+void MaterialCheck::check_relief(const Material& material, const std::string& place) {
+  if (material.relief == nullptr) return;
+  const Relief& relief = *material.relief;
+  check_texture(relief.texture, place + ".texture");
+  check_number(place + ".depth", relief.depth, 0, kMaxReliefDepth);
+  check_enumerator(place + ".kind", relief.kind, ReliefKind::depth);
+  if (material.alpha_mode == AlphaMode::blend)
+    fault(place, "belongs to opaque surfaces and cut-outs; this material blends");
 }
 
 void MaterialCheck::check_layer_projector(const SurfaceLayer& layer, const std::string& place) {

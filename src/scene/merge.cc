@@ -101,6 +101,11 @@ MergedIndices SceneMerger::add(Scene scene, const std::string& file) {
           &material.occlusion_texture, &material.emissive_texture}) {
       remap_picture(texture->picture, picture);
     }
+    if (material.relief != nullptr) {
+      Relief relief = *material.relief;
+      remap_picture(relief.texture.picture, picture);
+      material.relief = std::make_shared<const Relief>(relief);
+    }
     for (SurfaceLayer& layer : material.layers) {
       remap_picture(layer.texture.picture, picture);
       shift(layer.projector, merged_.lights.size());

@@ -15,7 +15,6 @@
 #include "shade/light_reach.h"
 #include "shade/photograph_painter.h"
 #include "shade/shadow_tone.h"
-#include "shade/surface_cut.h"
 #include "shade/tile_layers.h"
 #include "shadow/shadow_technique.h"
 
