@@ -96,8 +96,8 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
   bool double_sided = false;
-  bool unlit = false;                ///< KHR_materials_unlit: base colour is what is seen
-  std::vector<SurfaceLayer> layers;  ///< at most kMaxSurfaceLayers
+  bool unlit = false;                    ///< KHR_materials_unlit: base colour is what is seen
+  std::vector<SurfaceLayer> layers;      ///< at most kMaxSurfaceLayers
   std::shared_ptr<const Relief> relief;  ///< null: flat
 };
 

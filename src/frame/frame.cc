@@ -54,7 +54,7 @@ Surface make_surface(const Material& m, const TextureLibrary& library, std::span
   for (const SurfaceLayer& layer : m.layers) s.layers.push_back(make_layer(layer, library, decals));
   if (has_relief(m)) {
     const Relief& r = *m.relief;
-    s.relief = {library.find_relief(r),          r.texture.uv_set, r.texture.uv_from_mesh_uv,
+    s.relief = {library.find_relief(r),      r.texture.uv_set, r.texture.uv_from_mesh_uv,
                 static_cast<float>(r.depth), r.self_shadow,    r.cut_edges};
   }
   return s;

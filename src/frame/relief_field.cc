@@ -36,14 +36,16 @@ std::vector<int> texels_of(const ReliefField::Axis& axis, int texels) {
 
 class PyramidBuilder {
  public:
-  explicit PyramidBuilder(ReliefField& field) : field_(field), width_(field.x.cells), height_(field.y.cells) {}
+  explicit PyramidBuilder(ReliefField& field)
+      : field_(field), width_(field.x.cells), height_(field.y.cells) {}
 
   void build() {
     start_level();
     const std::size_t row = static_cast<std::size_t>(field_.x.cells) + 1;
     for (int j = 0; j < height_; ++j) {
       for (int i = 0; i < width_; ++i) {
-        const float* corner = field_.corners.data() + static_cast<std::size_t>(j) * row + static_cast<std::size_t>(i);
+        const float* corner =
+            field_.corners.data() + static_cast<std::size_t>(j) * row + static_cast<std::size_t>(i);
         add(std::min({corner[0], corner[1], corner[row], corner[row + 1]}));
       }
     }
@@ -71,7 +73,8 @@ class PyramidBuilder {
     };
     for (int j = 0; j < height_; ++j) {
       for (int i = 0; i < width_; ++i) {
-        add(std::min({at(2 * i, 2 * j), at(2 * i + 1, 2 * j), at(2 * i, 2 * j + 1), at(2 * i + 1, 2 * j + 1)}));
+        add(std::min(
+            {at(2 * i, 2 * j), at(2 * i + 1, 2 * j), at(2 * i, 2 * j + 1), at(2 * i + 1, 2 * j + 1)}));
       }
     }
   }

@@ -63,8 +63,8 @@ HWY_INLINE ReliefCoordinates FindReliefCoordinates(const Frame& frame, const Rel
   const std::array<float, 6>& m = relief.uv_from_mesh_uv;
   const auto row = [&](std::size_t r, const ReliefField::Axis& axis) HWY_ATTR {
     const auto at = [&](FloatVector a, FloatVector b) HWY_ATTR {
-      const auto mapped = (Splat(m[r]) * stream.OrElse(a, zero) + Splat(m[r + 1]) * stream.OrElse(b, zero)) +
-                          Splat(m[r + 2]);
+      const auto mapped =
+          (Splat(m[r]) * stream.OrElse(a, zero) + Splat(m[r + 1]) * stream.OrElse(b, zero)) + Splat(m[r + 2]);
       return mapped * Splat(axis.scale) + Splat(axis.offset);
     };
     return CornerValues{at(u.a, v.a), at(u.b, v.b), at(u.c, v.c)};
@@ -186,8 +186,8 @@ struct CellCrossing {
   FloatVector t;
   FloatMask is_met;
 };
-HWY_INLINE CellCrossing CrossCell(const ReliefField& field, const AxisWalk& x, const AxisWalk& y, FloatVector t,
-                                  FloatVector t_exit) {
+HWY_INLINE CellCrossing CrossCell(const ReliefField& field, const AxisWalk& x, const AxisWalk& y,
+                                  FloatVector t, FloatVector t_exit) {
   const auto zero = Splat(0.0F), one = Splat(1.0F), two = Splat(2.0F), four = Splat(4.0F);
   const CellDepths cell = DepthsOf(field, x.place.cell, y.place.cell);
   const auto fx = x.At(t) - x.place.tile - ToFloat(x.place.cell);
@@ -247,7 +247,8 @@ HWY_INLINE FloatVector TraceRelief(const ReliefField& field, const ReliefRay& ra
     const auto leaves_x = hn::And(leaves, exit_x <= exit_y), leaves_y = hn::AndNot(exit_x <= exit_y, leaves);
     const auto rises_x = x.Move(leaves_x, node_x, level, t), rises_y = y.Move(leaves_y, node_y, level, t);
     const auto rises = hn::And(hn::Or(rises_x, rises_y), level < top);
-    level = hn::IfThenElse(hn::RebindMask(di, descends), level - one, hn::IfThenElse(rises, level + one, level));
+    level =
+        hn::IfThenElse(hn::RebindMask(di, descends), level - one, hn::IfThenElse(rises, level + one, level));
     walks = hn::And(walks, t < t_end);
   }
   return t;

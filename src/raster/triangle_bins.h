@@ -121,12 +121,12 @@ enum class CullFaces : std::uint8_t {
 
 struct BinOptions {
   CullFaces cull = CullFaces::none;
-  std::uint32_t required_flags = 0;  ///< only clusters with all of these
-  std::uint32_t excluded_flags = 0;  ///< no clusters with any of these
+  std::uint32_t required_flags = 0;      ///< only clusters with all of these
+  std::uint32_t excluded_flags = 0;      ///< no clusters with any of these
   std::uint32_t cut_flags = kAlphaMask;  ///< clusters with any of these are asked about (AlphaCut)
-  bool nearest_first = true;         ///< sort clusters front to back: fewer samples are drawn over
-  Rect pixels;                       ///< what is needed of the picture
-  int sample_reach = 0;              ///< largest sample offset from the pixel centre, in 1/256 pixel
+  bool nearest_first = true;             ///< sort clusters front to back: fewer samples are drawn over
+  Rect pixels;                           ///< what is needed of the picture
+  int sample_reach = 0;                  ///< largest sample offset from the pixel centre, in 1/256 pixel
   InstructionSet instruction_set = InstructionSet::scalar;
 };
 

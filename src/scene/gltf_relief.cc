@@ -6,8 +6,8 @@
 
 namespace laterna::gltf {
 
-std::shared_ptr<const Relief> read_relief(const JsonDocument& json, const JsonValue& material, Textures& textures,
-                                          const std::string& name, FaultList& faults) {
+std::shared_ptr<const Relief> read_relief(const JsonDocument& json, const JsonValue& material,
+                                          Textures& textures, const std::string& name, FaultList& faults) {
   const JsonValue* extension = find_extension(material, kReliefExtension);
   if (extension == nullptr) return nullptr;
   JsonObject object(json, *extension, faults, kGltfNames);

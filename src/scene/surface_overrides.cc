@@ -174,7 +174,8 @@ class SurfaceLayering {
     }
     for (const SurfaceOverride::Layer& read : change_.layers) {
       if (read.layer.texture.is_set())
-        check_coordinates(read.layer.texture, read.texture_place, ": a projector's \"slide\" needs none", index);
+        check_coordinates(read.layer.texture, read.texture_place, ": a projector's \"slide\" needs none",
+                          index);
     }
     if (change_.relief) set_relief(*change_.relief, index);
   }
@@ -182,8 +183,9 @@ class SurfaceLayering {
   void set_relief(const Relief& relief, int index) {
     Material& material = material_at(index);
     if (material.alpha_mode == AlphaMode::blend) {
-      return fault(change_.relief_place, fmt::format("material {} blends: reliefs belong to opaque surfaces and cut-outs",
-                                                     in_quotes(material.name)));
+      return fault(change_.relief_place,
+                   fmt::format("material {} blends: reliefs belong to opaque surfaces and cut-outs",
+                               in_quotes(material.name)));
     }
     material.relief = std::make_shared<const Relief>(relief);
     check_coordinates(relief.texture, change_.relief_place, "", index);
@@ -197,8 +199,8 @@ class SurfaceLayering {
       for (const Primitive& primitive : mesh.primitives) {
         if (primitive.material != material || primitive.positions.empty() || !primitive.uv[set].empty())
           continue;
-        return fault(place, fmt::format("mesh {} has no texture coordinates of set {}{}", in_quotes(mesh.name),
-                                        set, otherwise));
+        return fault(place, fmt::format("mesh {} has no texture coordinates of set {}{}",
+                                        in_quotes(mesh.name), set, otherwise));
       }
     }
   }

@@ -53,7 +53,8 @@ class ReliefKeeper {
  private:
   HWY_INLINE FloatMask IsOnChart(const Weights& weights) const {
     const LatticePoint p = coordinates_.At(weights.b, weights.c);
-    const auto within = [](FloatVector at, const frame::ReliefField::Axis& axis, float low, float high) HWY_ATTR {
+    const auto within = [](FloatVector at, const frame::ReliefField::Axis& axis, float low,
+                           float high) HWY_ATTR {
       const auto scale = Splat(axis.scale), offset = Splat(axis.offset);
       return hn::And(at >= Splat(low) * scale + offset, at <= Splat(high) * scale + offset);
     };
@@ -71,7 +72,8 @@ class ReliefKeeper {
   const frame::TextureRectangle& chart_;
 };
 
-void keep_on_relief(const CutSource& source, TriangleId id, raster::CutSamples& samples, std::uint16_t* kept) {
+void keep_on_relief(const CutSource& source, TriangleId id, raster::CutSamples& samples,
+                    std::uint16_t* kept) {
   const ReliefKeeper keeper(source, id);
   for (std::size_t group = 0; group < samples.groups(); ++group) {
     std::uint32_t bits = 0;

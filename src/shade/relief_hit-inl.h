@@ -68,9 +68,9 @@ struct Displaced {
 };
 
 // Seen from the back the triangle is flat.
-HWY_INLINE Displaced DisplaceSample(const PixelRays& rays, const Facet& facet, const frame::ReliefBinding& relief,
-                                    const ReliefCoordinates& coordinates, FloatVector x, FloatVector y,
-                                    FloatVector q) {
+HWY_INLINE Displaced DisplaceSample(const PixelRays& rays, const Facet& facet,
+                                    const frame::ReliefBinding& relief, const ReliefCoordinates& coordinates,
+                                    FloatVector x, FloatVector y, FloatVector q) {
   const auto zero = Splat(0.0F);
   const Hit on_plane = FindReliefHit(rays, facet, x, y, q).hit;
   // To grazing rays the surface is as if it were seen under a gradient of 1 : 10000.
@@ -82,8 +82,7 @@ HWY_INLINE Displaced DisplaceSample(const PixelRays& rays, const Facet& facet, c
       coordinates.At(on_plane.weights.b, on_plane.weights.c),
       coordinates.Change(Dot(way, facet.to_b), Dot(way, facet.to_c))};
   Displaced displaced;
-  displaced.t =
-      frame::HWY_NAMESPACE::TraceRelief(*relief.field, ray, Splat(1.0F), facing > zero);
+  displaced.t = frame::HWY_NAMESPACE::TraceRelief(*relief.field, ray, Splat(1.0F), facing > zero);
   displaced.t = hn::IfThenElseZero(facing > zero, displaced.t);
   FloatVector pushed;
   if (rays.is_orthographic) {
@@ -117,9 +116,8 @@ HWY_INLINE Vector3 ReliefNormal(const Facet& facet, const frame::ReliefBinding& 
   const auto slope_x = (depth(p.x + reach_x, p.y) - depth(p.x - reach_x, p.y)) * (scale / reach_x);
   const auto slope_y = (depth(p.x, p.y + reach_y) - depth(p.x, p.y - reach_y)) * (scale / reach_y);
   // How lattice coordinates grow on the triangle's plane.
-  const auto gradient = [&](const frame::HWY_NAMESPACE::CornerValues& v) HWY_ATTR {
-    return facet.to_b * (v.b - v.a) + facet.to_c * (v.c - v.a);
-  };
+  const auto gradient = [&](const frame::HWY_NAMESPACE::CornerValues& v)
+                            HWY_ATTR { return facet.to_b * (v.b - v.a) + facet.to_c * (v.c - v.a); };
   // Depth grows against the normal.
   return Normalised(normal + (gradient(coordinates.x) * slope_x + gradient(coordinates.y) * slope_y));
 }

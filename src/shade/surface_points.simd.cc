@@ -179,7 +179,8 @@ HWY_NOINLINE void FindReliefPoints(const PointSource& source, const frame::Surfa
     hn::Store(found.dq_dx, d, s.dq_dx.data() + i);
     hn::Store(found.dq_dy, d, s.dq_dy.data() + i);
     if (surface.normal_texture.chain != nullptr) continue;
-    const auto coordinates = frame::HWY_NAMESPACE::FindReliefCoordinates(*source.frame, surface.relief, corners);
+    const auto coordinates =
+        frame::HWY_NAMESPACE::FindReliefCoordinates(*source.frame, surface.relief, corners);
     const Vector3 normal = {hn::Load(d, p.normal_x_ws.data() + i), hn::Load(d, p.normal_y_ws.data() + i),
                             hn::Load(d, p.normal_z_ws.data() + i)};
     const Vector3 relief = ReliefNormal(facet, surface.relief, coordinates, found.hit.weights, normal);

@@ -32,7 +32,7 @@ ReliefLight::ReliefLight(const light::PlannedLight& planned, const raster::Raste
 
 double ShadowOnRelief::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                                     Arrival& arrival) const {
-  const frame::Cluster& cluster = frame_.clusters[cluster_of(samples.id[0])];
+  const Cluster& cluster = frame_.clusters[cluster_of(samples.id[0])];
   if ((cluster.flags & kRelief) == 0) return technique_->find_arrival(samples, wanted, arrival);
   return find_on_relief(frame_.surfaces[cluster.material], samples, wanted, arrival);
 }
@@ -44,9 +44,11 @@ double ShadowOnRelief::find_on_relief(const frame::Surface& surface, const Surfa
   find_relief_entries_(frame_, surface, light_, samples, entries, shaded.data());
   const double drawing_ms = technique_->find_arrival(entries, wanted, arrival);
   if (!surface.relief.self_shadow) return drawing_ms;
-  for_each_sample(samples, std::span<const std::uint16_t>(shaded).first(samples.group_count), [&](std::size_t i) {
-    for (SampleArray<float>* share : {&arrival.alpha, &arrival.r, &arrival.g, &arrival.b}) (*share)[i] = 0;
-  });
+  for_each_sample(samples, std::span<const std::uint16_t>(shaded).first(samples.group_count),
+                  [&](std::size_t i) {
+                    for (SampleArray<float>* share : {&arrival.alpha, &arrival.r, &arrival.g, &arrival.b})
+                      (*share)[i] = 0;
+                  });
   return drawing_ms;
 }
 

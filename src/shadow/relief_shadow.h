@@ -16,7 +16,7 @@ struct ReliefLight {
 
   bool is_parallel;
   float position_ws[3];
-  float to_light_ws[3];  ///< of parallel light
+  float to_light_ws[3];   ///< of parallel light
   bool stays_in_picture;  ///< the technique knows of nothing beyond the camera's picture
   // The camera, as RasterView has it.
   bool is_orthographic;

@@ -69,8 +69,10 @@ HWY_INLINE Seen See(const ReliefLight& light, const Vector3& position_ws) {
   };
   // Beyond, floats tell no pixels apart.
   constexpr float kFarthest = 1e6F;
-  within(seen.x, light.stays_in_picture ? light.low_x : -kFarthest, light.stays_in_picture ? light.high_x : kFarthest);
-  within(seen.y, light.stays_in_picture ? light.low_y : -kFarthest, light.stays_in_picture ? light.high_y : kFarthest);
+  within(seen.x, light.stays_in_picture ? light.low_x : -kFarthest,
+         light.stays_in_picture ? light.high_x : kFarthest);
+  within(seen.y, light.stays_in_picture ? light.low_y : -kFarthest,
+         light.stays_in_picture ? light.high_y : kFarthest);
   return seen;
 }
 
@@ -93,9 +95,8 @@ HWY_INLINE void StoreEntry(const ReliefLight& light, const SurfaceSamples& s, co
   put(hn::Load(d, s.normal_z_ws.data() + i), s.normal_z_ws, e.normal_z_ws);
   // Reversed depth over the picture, of the triangle's own plane.
   const auto n = polygon.unit_normal;
-  const auto across = light.is_orthographic
-                          ? hn::Neg(Dot(n, Splat3(light.axis_ws)))
-                          : Dot(n, polygon.corners.a - Splat3(light.eye_ws));
+  const auto across = light.is_orthographic ? hn::Neg(Dot(n, Splat3(light.axis_ws)))
+                                            : Dot(n, polygon.corners.a - Splat3(light.eye_ws));
   const auto is_edge_on = hn::Abs(across) <= Splat(1e-30F);
   const auto inverse =
       hn::IfThenZeroElse(is_edge_on, Splat(1.0F) / hn::IfThenElse(is_edge_on, Splat(1.0F), across));
@@ -113,7 +114,8 @@ HWY_INLINE std::uint32_t FindEntries(const frame::Frame& frame, const frame::Rel
   const Vector3 p = Load3(s.x_ws.data(), s.y_ws.data(), s.z_ws.data(), i);
   const Vector3 seen_normal = Load3(s.normal_x_ws.data(), s.normal_y_ws.data(), s.normal_z_ws.data(), i);
   const auto shows_front = Dot(seen_normal, polygon.unit_normal) > zero;
-  const auto below = hn::Min(hn::Max(Dot(polygon.unit_normal, polygon.corners.a - p), zero), Splat(relief.depth));
+  const auto below =
+      hn::Min(hn::Max(Dot(polygon.unit_normal, polygon.corners.a - p), zero), Splat(relief.depth));
   const Vector3 way = light.is_parallel ? Splat3(light.to_light_ws) : Splat3(light.position_ws) - p;
   const Vector3 to_light = Normalised(way);
   const auto rise = Dot(to_light, polygon.unit_normal);

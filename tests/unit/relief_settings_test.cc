@@ -23,7 +23,8 @@ GltfBuilder sheet(const json& extension = nullptr) {
   }
   builder.add("materials", material);
   builder.add("meshes",
-              {{"primitives", json::array({{{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}, {"material", 0}}})}});
+              {{"primitives",
+                json::array({{{"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}, {"material", 0}}})}});
   builder.add("nodes", {{"name", "sheet"}, {"mesh", 0}});
   return builder;
 }
@@ -43,13 +44,15 @@ std::string fault_of(const Result<Scene>& scene) {
 }
 
 TEST(ReliefSettings, EveryKeyOfARig) {
-  const Result<Scene> scene = load_rig(R"({"material": "paper", "relief": {"picture": "heights.png", "depth": 0.25,
+  const Result<Scene> scene =
+      load_rig(R"({"material": "paper", "relief": {"picture": "heights.png", "depth": 0.25,
       "kind": "depth", "self_shadow": false, "cut_edges": true, "uv_set": 0, "offset": [0.5, 0.25], "scale": [2, 4],
       "rotation_deg": 0, "wrap": "mirror"}})");
   ASSERT_TRUE(scene) << fault_of(scene);
   ASSERT_NE(scene->materials.at(0).relief, nullptr);
   const Relief& relief = *scene->materials[0].relief;
-  EXPECT_EQ(scene->pictures.at(static_cast<std::size_t>(relief.texture.picture)).file.filename(), "heights.png");
+  EXPECT_EQ(scene->pictures.at(static_cast<std::size_t>(relief.texture.picture)).file.filename(),
+            "heights.png");
   EXPECT_EQ(relief.depth, 0.25);
   EXPECT_EQ(relief.kind, ReliefKind::depth);
   EXPECT_FALSE(relief.self_shadow);
@@ -64,7 +67,8 @@ TEST(ReliefSettings, FaultsOfARigHaveTheirPlace) {
   };
   EXPECT_EQ(fault(R"({"picture": "heights.png", "depth": -1})"),
             "line 1: surfaces[0].relief.depth: expected a number from 0 to 10000, got -1");
-  EXPECT_EQ(fault(R"({"picture": "heights.png", "kind": "bump"})").find("line 1: surfaces[0].relief.kind: "), 0U);
+  EXPECT_EQ(fault(R"({"picture": "heights.png", "kind": "bump"})").find("line 1: surfaces[0].relief.kind: "),
+            0U);
   EXPECT_NE(fault(R"({"depth": 1})").find("picture"), std::string::npos);
   EXPECT_NE(fault(R"({"picture": "no.png"})").find("no.png"), std::string::npos);
   EXPECT_NE(fault(R"({"picture": "heights.png", "deep": 1})").find("\"deep\""), std::string::npos);
@@ -82,7 +86,8 @@ TEST(ReliefSettings, FaultsOfAnExtensionHaveTheirPlace) {
   EXPECT_EQ(fault({{"texture", {{"index", 0}}}, {"depth", 20000}}),
             "materials[0].extensions.LATERNA_relief.depth: expected a number from 0 to 10000, got 20000");
   EXPECT_NE(fault({{"depth", 0.1}}).find("texture"), std::string::npos);
-  EXPECT_NE(fault({{"texture", {{"index", 0}}}, {"self_shadow", true}}).find("selfShadow"), std::string::npos);
+  EXPECT_NE(fault({{"texture", {{"index", 0}}}, {"self_shadow", true}}).find("selfShadow"),
+            std::string::npos);
 }
 
 // Scenes made in code pass the same checks.
@@ -96,9 +101,10 @@ TEST(ReliefSettings, WhatBlendsBearsNone) {
   scene.materials.push_back(glass);
   std::vector<std::string> faults;
   for (const Diagnostic& fault : validate(scene)) faults.push_back(fault.place + ": " + fault.message);
-  EXPECT_EQ(faults, (std::vector<std::string>{
-                        "materials[0].relief.depth: expected a number from 0 to 10000, got -2",
-                        "materials[0].relief: belongs to opaque surfaces and cut-outs; this material blends"}));
+  EXPECT_EQ(faults,
+            (std::vector<std::string>{
+                "materials[0].relief.depth: expected a number from 0 to 10000, got -2",
+                "materials[0].relief: belongs to opaque surfaces and cut-outs; this material blends"}));
 }
 
 TEST(ReliefSettings, ComeBackFromAFile) {

@@ -96,7 +96,8 @@ Shot paving(Paving as) {
   Shot shot;
   Scene& scene = shot.scene;
   set_mood(scene, 0.10F);
-  const int stones = add_material(scene, "stones", glm::vec3(1), add_picture(scene, "stones", paint_stones()), 0.7F);
+  const int stones =
+      add_material(scene, "stones", glm::vec3(1), add_picture(scene, "stones", paint_stones()), 0.7F);
   Texture& texture = scene.materials.back().base_color_texture;
   texture.sampler.wrap_u = texture.sampler.wrap_v = Wrap::clamp;
   texture.uv_from_mesh_uv = {1 / kPaving, 0, 0.5F, 0, 1 / kPaving, 0.5F};
@@ -136,25 +137,31 @@ void draw_relief(Sitting& sitting) {
   sitting.picture("The same two triangles with a relief.", paving(Paving::relief));
   sitting.picture("The truth: 524288 triangles.", paving(Paving::mesh));
   const auto relief = picture_of(sitting, Paving::relief), mesh = picture_of(sitting, Paving::mesh);
-  if (relief && mesh) sitting.print("Relief and triangles: their difference, four times.", difference_picture(*relief, *mesh, 4));
+  if (relief && mesh)
+    sitting.print("Relief and triangles: their difference, four times.",
+                  difference_picture(*relief, *mesh, 4));
   const Detail part = {0.42, 0.5, 0.2, 0.2, 4};
-  sitting.detail("Relief, enlarged: the slide bends over the stones, which shade one another.", paving(Paving::relief), part);
+  sitting.detail("Relief, enlarged: the slide bends over the stones, which shade one another.",
+                 paving(Paving::relief), part);
   sitting.detail("Triangles, enlarged.", paving(Paving::mesh), part);
 }
 
 constexpr Figure kFigures[] = {
     {"relief", "A texture with depth", "Slides on relief textures",
-     "Heights on two triangles, found along every ray of sight. Parallax, outlines, the slide, the shadow of the post and the "
+     "Heights on two triangles, found along every ray of sight. Parallax, outlines, the slide, the shadow of "
+     "the post and the "
      "stones' own are those of the displaced mesh.",
      "What a relief casts on other things is the shadow of its flat polygon.",
-     "\"surfaces\": [{\"material\": \"stones\", \"relief\": {\"picture\": \"heights.png\", \"depth\": 0.06, \"cut_edges\": true}}]",
+     "\"surfaces\": [{\"material\": \"stones\", \"relief\": {\"picture\": \"heights.png\", \"depth\": 0.06, "
+     "\"cut_edges\": true}}]",
      draw_relief},
 };
 
 }  // namespace
 
 Chapter relief_chapter() {
-  return {"MIT 6.837, lecture 20: relief textures", "Oliveira, Bishop and McAllister, 2000, per pixel.", kFigures};
+  return {"MIT 6.837, lecture 20: relief textures", "Oliveira, Bishop and McAllister, 2000, per pixel.",
+          kFigures};
 }
 
 }  // namespace laterna::app
