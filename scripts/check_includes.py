@@ -52,6 +52,7 @@ PUBLIC_HEADERS = {
     "probes.h": "render",
     "quake_surfaces.h": "bake",
     "radiosity.h": "bake",
+    "relief.h": "scene",
     "render.h": "render",
     "photograph_files.h": "scene",
     "photographs.h": "scene",

@@ -32,6 +32,7 @@ namespace laterna {
 
 struct LightDistribution;  // laterna/lamps.h
 struct MaterialLobes;      // laterna/material_lobes.h
+struct Relief;             // laterna/relief.h
 
 // ---------------------------------------------------------------------------------------------- pictures in a scene
 
@@ -110,6 +111,7 @@ struct Material {
   LightMap light_map;
   /// Clear coats, sheen, glass and more; null: none. docs/materials.md
   std::shared_ptr<const MaterialLobes> lobes;
+  std::shared_ptr<const Relief> relief;  ///< null: flat
 };
 
 /// Triangles of one material. Attributes are empty or as long as `positions`.

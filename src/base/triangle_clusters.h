@@ -28,6 +28,7 @@ enum ClusterFlag : std::uint32_t {
   kReceivesShadow = 1U << 4U,
   kVisible = 1U << 5U,       // to cameras
   kTransmissive = 1U << 6U,  // light goes through it, and what lies behind is seen
+  kRelief = 1U << 8U,        // cameras see it displaced
 };
 
 struct Cluster {

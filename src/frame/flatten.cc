@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <memory>
 
 #include "base/elementary.h"
@@ -21,6 +22,7 @@ std::uint32_t material_flags(const Scene& scene, int material) {
   if (m.alpha_mode == AlphaMode::mask) flags |= kAlphaMask;
   if (m.alpha_mode == AlphaMode::blend) flags |= kAlphaBlend;
   if (may_show(scene, material, AnimatedProperty::transmission)) flags |= kTransmissive;
+  if (has_relief(m)) flags |= kRelief;
   return flags;
 }
 
@@ -135,6 +137,24 @@ std::vector<PartRange> split(const std::vector<const PlacedPart*>& parts) {
       ranges.push_back({part, first, std::min(kClusters, clusters - first)});
   }
   return ranges;
+}
+
+// Of reliefs: what each instance spans of their pictures.
+void find_relief_charts(const std::vector<PlacedPart>& placed, Frame& frame) {
+  for (const PlacedPart& part : placed) {
+    if ((part.flags & kRelief) == 0) continue;
+    frame.relief_charts.resize(frame.clusters.size());
+    const ReliefBinding& relief = frame.surfaces[part.surface].relief;
+    const std::array<float, 6>& m = relief.uv_from_mesh_uv;
+    constexpr float kEndless = std::numeric_limits<float>::infinity();
+    TextureRectangle chart = {kEndless, kEndless, -kEndless, -kEndless};
+    for (const glm::vec2& uv : part.primitive->uv[static_cast<std::size_t>(relief.uv_set)]) {
+      const float u = m[0] * uv.x + m[1] * uv.y + m[2], v = m[3] * uv.x + m[4] * uv.y + m[5];
+      chart = {std::min(chart.low_u, u), std::min(chart.low_v, v), std::max(chart.high_u, u),
+               std::max(chart.high_v, v)};
+    }
+    std::fill_n(frame.relief_charts.begin() + part.first_cluster, part.clustered->clusters.size(), chart);
+  }
 }
 
 class PartWriter {
@@ -328,6 +348,7 @@ void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
   for (const PlacedPart& part : placed) parts.push_back(&part);
   const std::vector<PartRange> ranges = split(parts);
   pool.for_each(ranges.size(), [&](std::size_t i, int) { PartWriter(ranges[i], frame).write(); });
+  find_relief_charts(placed, frame);
   frame.bounds = bounds_of(frame.clusters);
   frame.has_environment = scene.environment.has_value();
   frame.has_blending = std::any_of(frame.clusters.begin(), frame.clusters.end(),

@@ -11,6 +11,7 @@
 #include "frame/flatten.h"
 #include "frame/place_lights.h"
 #include "frame/surface_lobes.h"
+#include "laterna/relief.h"
 
 namespace laterna::frame {
 namespace {
@@ -51,6 +52,11 @@ Surface make_surface(const Material& m, const TextureLibrary& library, std::span
                  bind(m.light_map.back, image::MipUse::data, library), m.light_map.intensity};
   if (m.lobes != nullptr) s.lobes = bind_lobes(*m.lobes, library);
   for (const SurfaceLayer& layer : m.layers) s.layers.push_back(make_layer(layer, library, decals));
+  if (has_relief(m)) {
+    const Relief& r = *m.relief;
+    s.relief = {library.find_relief(r),      r.texture.uv_set, r.texture.uv_from_mesh_uv,
+                static_cast<float>(r.depth), r.self_shadow,    r.cut_edges};
+  }
   return s;
 }
 

@@ -22,6 +22,7 @@
 namespace laterna::frame {
 
 struct LampTable;     // frame/lamp_table.h
+struct ReliefField;   // frame/relief_field.h
 struct SurfaceLobes;  // frame/surface_lobes.h
 
 /// A picture as a material uses it.
@@ -51,6 +52,15 @@ struct LightMapBinding {
   float intensity = 1;
 };
 
+/// A Relief with its heights found.
+struct ReliefBinding {
+  const ReliefField* field = nullptr;  ///< null: flat
+  int uv_set = 0;
+  std::array<float, 6> uv_from_mesh_uv = {1, 0, 0, 0, 1, 0};
+  float depth = 0;  ///< metres
+  bool self_shadow = true, cut_edges = false;
+};
+
 /// A Material with its pictures found.
 struct Surface {
   std::array<float, 4> base_color = {1, 1, 1, 1};
@@ -63,6 +73,7 @@ struct Surface {
   std::vector<LayerBinding> layers;
   LightMapBinding light_map;
   std::shared_ptr<const SurfaceLobes> lobes;  ///< null: none
+  ReliefBinding relief;
 };
 
 /// A light where it stands. Colour and intensity stay in the scene's Light.
@@ -94,6 +105,11 @@ struct ClusterStreams {
   std::uint32_t normal = 0, uv[2] = {0, 0}, color = 0, tangent = 0;
 };
 inline constexpr std::uint32_t kNoStream = 0xFFFFFFFFU;
+
+/// A rectangle in a picture.
+struct TextureRectangle {
+  float low_u = 0, low_v = 0, high_u = 0, high_v = 0;
+};
 
 /// Triangle ids are cluster · 128 + triangle, and kernels gather with 32-bit signed indices.
 inline constexpr std::size_t kMaxClusters = std::size_t{1} << 24U;
@@ -157,6 +173,8 @@ class Frame {
   AlignedVector<std::uint32_t> corners;  // kTrianglesPerCluster per cluster
   std::vector<Cluster> clusters;
   std::vector<ClusterStreams> streams;  // one per cluster
+  // One per cluster: what of its relief's picture the primitive's instance spans. Empty: no surface has a relief.
+  std::vector<TextureRectangle> relief_charts;
 
   std::vector<Surface> surfaces;          // scene materials, then glTF's default
   std::vector<std::string> object_names;  // one per instance of a mesh

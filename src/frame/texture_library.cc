@@ -1,6 +1,7 @@
 #include "frame/texture_library.h"
 
 #include <algorithm>
+#include <compare>
 #include <filesystem>
 #include <iterator>
 #include <set>
@@ -56,6 +57,10 @@ std::uintmax_t encoded_bytes(const Picture& picture) {
 
 }  // namespace
 
+bool has_relief(const Material& material) {
+  return material.relief != nullptr && material.relief->texture.is_set() && material.relief->depth > 0;
+}
+
 image::MipUse base_color_use(const Material& material) {
   return material.alpha_mode == AlphaMode::opaque ? image::MipUse::colour : image::MipUse::colour_with_alpha;
 }
@@ -75,7 +80,8 @@ TextureLoading::TextureLoading(const Scene& scene, InstructionSet set, double sc
   for (const Request& request : requests(scene)) {
     const auto [index, use] = request;
     if (pictures_.empty() || pictures_.back().index != index) {
-      pictures_.push_back({index, {}, encoded_bytes(scene.pictures[static_cast<std::size_t>(index)]), {}});
+      pictures_.push_back(
+          {index, {}, {}, encoded_bytes(scene.pictures[static_cast<std::size_t>(index)]), {}});
     }
     pictures_.back().uses.push_back(use);
     if (scene.pictures[static_cast<std::size_t>(index)].film) {
@@ -84,9 +90,46 @@ TextureLoading::TextureLoading(const Scene& scene, InstructionSet set, double sc
       library_.chains_[request] = nullptr;
     }
   }
+  add_reliefs();
   // Else a thread might end with the largest picture alone.
   std::stable_sort(pictures_.begin(), pictures_.end(),
                    [](const auto& a, const auto& b) { return a.encoded_bytes > b.encoded_bytes; });
+}
+
+void TextureLoading::add_reliefs() {
+  for (const Material& material : scene_.materials) {
+    if (!has_relief(material)) continue;
+    const Relief& relief = *material.relief;
+    const TextureLibrary::ReliefUse use = {relief.kind, relief.texture.sampler.wrap_u,
+                                           relief.texture.sampler.wrap_v};
+    if (library_.reliefs_.emplace(std::pair(relief.texture.picture, use), nullptr).second)
+      picture_at(relief.texture.picture).relief_uses.push_back(use);
+  }
+}
+
+TextureLoading::UsedPicture& TextureLoading::picture_at(int index) {
+  const auto known = std::find_if(pictures_.begin(), pictures_.end(),
+                                  [&](const UsedPicture& used) { return used.index == index; });
+  if (known != pictures_.end()) return *known;
+  return pictures_.emplace_back(
+      UsedPicture{index, {}, {}, encoded_bytes(scene_.pictures[static_cast<std::size_t>(index)]), {}});
+}
+
+void TextureLoading::make_reliefs(UsedPicture& used, const Image& picture) {
+  const auto samples = std::int64_t{picture.width()} * picture.height();
+  if (!used.relief_uses.empty() && samples > kMaxReliefSamples) {
+    const Picture& of_scene = scene_.pictures[static_cast<std::size_t>(used.index)];
+    used.faults.push_back({of_scene.name.empty() ? of_scene.file.string() : of_scene.name,
+                           {},
+                           "a relief has at most " + std::to_string(kMaxReliefSamples) +
+                               " samples (8192 x 8192), this one has " + std::to_string(picture.width()) +
+                               " x " + std::to_string(picture.height())});
+    return;
+  }
+  for (const TextureLibrary::ReliefUse& use : used.relief_uses) {
+    library_.reliefs_.at({used.index, use}) =
+        std::make_shared<const ReliefField>(picture, use.kind, Sampler{use.wrap_u, use.wrap_v});
+  }
 }
 
 void TextureLoading::run(std::size_t task) {
@@ -105,6 +148,7 @@ void TextureLoading::run(std::size_t task) {
     library_.chains_.at({used.index, use}) =
         std::make_unique<image::MipChain>(image::make_mip_chain(**pixels, use, set_));
   }
+  make_reliefs(used, **pixels);
 }
 
 void TextureLoading::open_film(UsedPicture& used, const Picture& picture) {
@@ -144,6 +188,12 @@ const image::MipChain* TextureLibrary::find(int picture, image::MipUse use) cons
   }
   const auto found = chains_.find({picture, use});
   return found == chains_.end() ? nullptr : found->second.get();
+}
+
+const ReliefField* TextureLibrary::find_relief(const Relief& relief) const {
+  const ReliefUse use = {relief.kind, relief.texture.sampler.wrap_u, relief.texture.sampler.wrap_v};
+  const auto found = reliefs_.find({relief.texture.picture, use});
+  return found == reliefs_.end() ? nullptr : found->second.get();
 }
 
 Result<int> TextureLibrary::show(double scene_time) {

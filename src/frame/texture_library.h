@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "base/task_pool.h"
+#include "frame/relief_field.h"
 #include "image/mip_chain.h"
+#include "laterna/relief.h"
 #include "laterna/scene.h"
 
 namespace laterna::image {
@@ -16,6 +18,9 @@ struct FilmFrame;
 }  // namespace laterna::image
 
 namespace laterna::frame {
+
+/// Whether it is more than flat.
+bool has_relief(const Material& material);
 
 class TextureLibrary {
  public:
@@ -26,6 +31,9 @@ class TextureLibrary {
 
   /// Null where `picture` is −1 or was not asked for with this use. Of a film: the frame shown now, until the next show().
   [[nodiscard]] const image::MipChain* find(int picture, image::MipUse use) const;
+
+  /// The heights of a material's relief that is not flat.
+  [[nodiscard]] const ReliefField* find_relief(const Relief& relief) const;
 
   /// Every film's frame at a scene time. Returns how many films show another than before. After an error, collected from all
   /// films, all show what they did.
@@ -41,6 +49,13 @@ class TextureLibrary {
   };
   std::map<std::pair<int, image::MipUse>, std::unique_ptr<image::MipChain>> chains_;  // of stills
   std::map<int, ShownFilm> films_;                                                    // by picture
+  // What a picture is made into for a relief.
+  struct ReliefUse {
+    ReliefKind kind;
+    Wrap wrap_u, wrap_v;
+    auto operator<=>(const ReliefUse&) const = default;
+  };
+  std::map<std::pair<int, ReliefUse>, std::shared_ptr<const ReliefField>> reliefs_;
   std::vector<Diagnostic> warnings_;
 };
 
@@ -62,10 +77,14 @@ class TextureLoading {
   struct UsedPicture {
     int index;
     std::vector<image::MipUse> uses;
+    std::vector<TextureLibrary::ReliefUse> relief_uses;
     std::uintmax_t encoded_bytes;
     std::vector<Diagnostic> faults;
   };
 
+  void add_reliefs();
+  UsedPicture& picture_at(int index);
+  void make_reliefs(UsedPicture& used, const Image& picture);
   void open_film(UsedPicture& used, const Picture& picture);
 
   const Scene& scene_;

@@ -1,4 +1,4 @@
-// How a material may cut holes into the triangles that are rasterised.
+// How a material may cut holes into the triangles that are rasterised, and push their samples back.
 #pragma once
 
 #include <array>
@@ -23,8 +23,9 @@ struct CutSamples {
 class AlphaCut {
  public:
   virtual ~AlphaCut() = default;
-  /// Sets bit i % 16 of kept[i / 16] where the material keeps sample i. Called from several threads at once.
-  virtual void keep(TriangleId id, const CutSamples& samples, std::uint16_t* kept) const = 0;
+  /// Sets bit i % 16 of kept[i / 16] where the material keeps sample i, and may make its reversed depth less. What becomes
+  /// of a sample must not depend on those asked about beside it. Called from several threads at once.
+  virtual void keep(TriangleId id, CutSamples& samples, std::uint16_t* kept) const = 0;
 };
 
 }  // namespace laterna::raster

@@ -63,7 +63,8 @@ HWY_INLINE void SetUpEdges(const WideTriangle& t, const TileTask& task, Edge* ed
 // ---------------------------------------------------------------------------------------------- sinks
 
 // A sink takes the covered samples of a block: `VisitVector` for one vector of lanes, which says whether any was taken,
-// and for cut-outs `Passing`, what of a vector would be taken, and `Write` for one sample. `Farthest`: the least reversed depth of a block.
+// and for cut-outs `Passing`, what of a vector would be taken, `Takes`, the same of one sample that may have been pushed
+// back, and `Write` for it. `Farthest`: the least reversed depth of a block.
 HWY_INLINE float FarthestOf(const float* depth) {
   const FloatTag d;
   auto least = hn::Load(d, depth);
@@ -89,6 +90,7 @@ class DepthSink {
   HWY_INLINE FloatMask Passing(std::size_t sample, FloatMask inside, FloatVector q) const {
     return hn::And(inside, q > hn::Load(FloatTag(), depth_ + sample));
   }
+  [[nodiscard]] bool Takes(std::size_t sample, float q) const { return q > depth_[sample]; }
   void Write(std::size_t sample, float q) { depth_[sample] = q; }
 
  private:
@@ -129,6 +131,9 @@ class VisibilitySink {
     const auto wins = hn::RebindMask(d, hn::Xor(id, sign) < hn::Xor(old_ids, sign));
     return hn::And(passing, hn::Or(q > old, wins));
   }
+  [[nodiscard]] bool Takes(std::size_t sample, float q) const {
+    return q > depth_[sample] || (q == depth_[sample] && id_ < ids_[sample]);
+  }
   void Write(std::size_t sample, float q) {
     depth_[sample] = q;
     ids_[sample] = id_;
@@ -163,6 +168,7 @@ class FragmentSink {
   [[nodiscard]] float Farthest(std::size_t block) const { return FarthestOf(depth_ + block); }
   // Blended triangles are never cut while rasterising: their alpha weighs them in shading.
   static HWY_INLINE FloatMask Passing(std::size_t, FloatMask inside, FloatVector) { return inside; }
+  static bool Takes(std::size_t, float) { return false; }
   static void Write(std::size_t, float) {}
 
  private:
@@ -578,6 +584,7 @@ class TileRaster {
     task_.cut->keep(id, asked_, kept.data());
     for (std::size_t i = 0; i < asked_.count; ++i) {
       if ((kept[i / 16] >> (i % 16) & 1U) == 0) continue;
+      if (!sink_.Takes(asked_samples_[i], asked_.reversed_depth[i])) continue;
       sink_.Write(asked_samples_[i], asked_.reversed_depth[i]);
     }
     asked_.count = 0;

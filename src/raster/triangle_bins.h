@@ -48,7 +48,7 @@ inline constexpr int kMaxRasterSide = kGuardBand;
 inline constexpr int kSmallTriangle = 16;
 
 enum TriangleKind : std::uint32_t {
-  kMasked = 1U << 0U,   // the alpha cut is asked about each covered sample
+  kMasked = 1U << 0U,   // the cut is asked about each covered sample
   kBlended = 1U << 1U,  // collected in a second list over the opaque surface
 };
 
@@ -121,11 +121,12 @@ enum class CullFaces : std::uint8_t {
 
 struct BinOptions {
   CullFaces cull = CullFaces::none;
-  std::uint32_t required_flags = 0;  ///< only clusters with all of these
-  std::uint32_t excluded_flags = 0;  ///< no clusters with any of these
-  bool nearest_first = true;         ///< sort clusters front to back: fewer samples are drawn over
-  Rect pixels;                       ///< what is needed of the picture
-  int sample_reach = 0;              ///< largest sample offset from the pixel centre, in 1/256 pixel
+  std::uint32_t required_flags = 0;      ///< only clusters with all of these
+  std::uint32_t excluded_flags = 0;      ///< no clusters with any of these
+  std::uint32_t cut_flags = kAlphaMask;  ///< clusters with any of these are asked about (AlphaCut)
+  bool nearest_first = true;             ///< sort clusters front to back: fewer samples are drawn over
+  Rect pixels;                           ///< what is needed of the picture
+  int sample_reach = 0;                  ///< largest sample offset from the pixel centre, in 1/256 pixel
   InstructionSet instruction_set = InstructionSet::scalar;
 };
 

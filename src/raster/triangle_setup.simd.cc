@@ -64,8 +64,8 @@ HWY_INLINE void TransformVertices(const SetupView& setup, const TriangleClusters
   }
 }
 
-std::uint32_t KindOf(const Cluster& cluster) {
-  if ((cluster.flags & kAlphaMask) != 0) return kMasked;
+std::uint32_t KindOf(const Cluster& cluster, const BinOptions& options) {
+  if ((cluster.flags & options.cut_flags) != 0) return kMasked;
   if ((cluster.flags & kAlphaBlend) != 0) return kBlended;
   return 0;
 }
@@ -196,7 +196,7 @@ WideParts PartsOf(const SetupTask& task, const WideCorners& corners, std::span<c
     high = i == 0 ? q : std::max(high, q);
   }
   return {PlaneThrough(corners.clip, corners.right_side), static_cast<float>(low), static_cast<float>(high),
-          id, KindOf(task.geometry->clusters[task.cluster])};
+          id, KindOf(task.geometry->clusters[task.cluster], *task.options)};
 }
 
 // Any triangle of a cluster that crosses the near plane or the guard band.
@@ -465,7 +465,7 @@ void SetUpInside(const SetupTask& task, const ScreenVertices& screen, Batch& bat
   const RasterView& view = *task.setup->view;
   const Cluster& cluster = task.geometry->clusters[task.cluster];
   const Culling culling(cluster, task.options->cull);
-  const std::uint32_t kind = KindOf(cluster);
+  const std::uint32_t kind = KindOf(cluster, *task.options);
   const TriangleId first_id = task.cluster << kTriangleBits;
   const PixelBounds pixels(view, *task.options);
   const auto limit = hn::Set(di, kSmallTriangle * kSubpixels);

@@ -24,7 +24,7 @@ std::uint32_t end_of(const frame::PlacedPart& part) {
 }
 
 bool casts(const frame::PlacedPart& part) {
-  return (part.flags & (kCastsShadow | kAlphaBlend)) == kCastsShadow;
+  return (part.flags & (kCastsShadow | kPaneFlags)) == kCastsShadow;
 }
 
 // Of clusters, and of the part that they belong to, if it is one that moves: its clusters get its flags when it is posed.

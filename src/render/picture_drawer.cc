@@ -234,6 +234,7 @@ void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSetti
   options.cull = raster::CullFaces::single_sided;
   options.required_flags = kVisible;
   options.excluded_flags = excluded;
+  options.cut_flags = kAlphaMask | kRelief;
   options.instruction_set = instruction_set_;
   for (const shade::SampleOffset& offset : shade::sample_offsets(settings.samples, job.jitter)) {
     options.sample_reach = std::max({options.sample_reach, std::abs(offset.x), std::abs(offset.y)});

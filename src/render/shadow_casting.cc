@@ -8,6 +8,7 @@
 #include "shadow/ground_shadow.h"
 #include "shadow/paraboloid_shadow.h"
 #include "shadow/ray_traced.h"
+#include "shadow/relief_shadow.h"
 #include "shadow/shadow_map.h"
 #include "shadow/shadow_volume.h"
 #include "shadow/silhouette_shadow.h"
@@ -16,9 +17,17 @@
 
 namespace laterna::render {
 
-// Blended casters tint whatever technique finds the shadows of the others.
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make(const light::PlannedLight& planned,
                                                              std::size_t index) {
+  std::unique_ptr<shadow::ShadowTechnique> technique = make_for_flat(planned, index);
+  if (technique == nullptr || context_.frame.relief_charts.empty()) return technique;
+  return std::make_unique<shadow::ShadowOnRelief>(std::move(technique), planned, context_.frame,
+                                                  context_.camera, context_.instruction_set);
+}
+
+// Blended casters tint whatever technique finds the shadows of the others.
+std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_for_flat(const light::PlannedLight& planned,
+                                                                      std::size_t index) {
   std::unique_ptr<shadow::ShadowTechnique> opaque = make_opaque(planned, index);
   if (opaque == nullptr || !context_.frame.has_blended_casters) return opaque;
   return std::make_unique<shadow::ShadowThroughPanes>(std::move(opaque), make_panes(planned), context_.frame,

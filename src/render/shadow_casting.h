@@ -41,6 +41,9 @@ class ShadowCasting {
                                                               std::size_t index);
 
  private:
+  // Where nothing is displaced.
+  [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_for_flat(const light::PlannedLight& planned,
+                                                                       std::size_t index);
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_opaque(const light::PlannedLight& planned,
                                                                      std::size_t index);
   [[nodiscard]] std::unique_ptr<shadow::PaneFinder> make_panes(const light::PlannedLight& planned);

@@ -17,7 +17,7 @@ class CutOfPart final : public raster::AlphaCut {
  public:
   CutOfPart(const raster::AlphaCut& of_frame, std::uint32_t first_cluster)
       : of_frame_(of_frame), first_(first_cluster << kTriangleBits) {}
-  void keep(TriangleId id, const raster::CutSamples& samples, std::uint16_t* kept) const override {
+  void keep(TriangleId id, raster::CutSamples& samples, std::uint16_t* kept) const override {
     of_frame_.keep(first_ + id, samples, kept);
   }
 

@@ -73,7 +73,7 @@ WarpedCut::WarpedCut(const raster::AlphaCut& cut, const light::Warp& warp, const
       unwarped_from_warped_(pixel_from_space(unwarped) * glm::inverse(warp.warped_from_world) *
                             glm::inverse(pixel_from_space(warped))) {}
 
-void WarpedCut::keep(TriangleId id, const raster::CutSamples& samples, std::uint16_t* kept) const {
+void WarpedCut::keep(TriangleId id, raster::CutSamples& samples, std::uint16_t* kept) const {
   raster::CutSamples moved;
   moved.count = samples.count;
   for (std::size_t i = 0; i < 16 * samples.groups(); ++i) {

@@ -32,7 +32,7 @@ class WarpedCut final : public raster::AlphaCut {
   /// All stay while this lives. `cut` looks from `unwarped`.
   WarpedCut(const raster::AlphaCut& cut, const light::Warp& warp, const raster::RasterView& warped,
             const raster::RasterView& unwarped);
-  void keep(TriangleId id, const raster::CutSamples& samples, std::uint16_t* kept) const override;
+  void keep(TriangleId id, raster::CutSamples& samples, std::uint16_t* kept) const override;
 
  private:
   const raster::AlphaCut& cut_;

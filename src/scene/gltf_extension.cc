@@ -13,7 +13,7 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 26> kRead = {
+constexpr std::array<std::string_view, 27> kRead = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
@@ -36,6 +36,7 @@ constexpr std::array<std::string_view, 26> kRead = {
     "LATERNA_light_map",
     "LATERNA_lighting",
     "LATERNA_projector",
+    "LATERNA_relief",
     // Safe to leave out: they hold alternatives or descriptions of what is read anyway.
     "KHR_materials_variants",
     "KHR_xmp",

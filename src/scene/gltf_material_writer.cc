@@ -8,6 +8,7 @@
 
 #include "scene/gltf_light_map.h"
 #include "scene/gltf_lobes.h"
+#include "scene/gltf_relief.h"
 #include "scene/texture_transform.h"
 
 namespace laterna::gltf {
@@ -52,6 +53,7 @@ class MaterialWriter {
     write_lobes(material, document_, json, [this](Json& object, const char* name, const Texture& texture) {
       set_texture(object, name, texture);
     });
+    set_relief(json, material);
     if (fault_) return tl::unexpected(std::move(*fault_));
     if (json.is_null()) json = Json::object();
     return json;
@@ -87,6 +89,14 @@ class MaterialWriter {
     json["alphaMode"] = material.alpha_mode == AlphaMode::mask ? "MASK" : "BLEND";
     if (material.alpha_mode == AlphaMode::mask)
       set_unless(json, "alphaCutoff", shortest(limited("alpha_cutoff", material.alpha_cutoff, 2)), 0.5);
+  }
+
+  void set_relief(Json& json, const Material& material) {
+    if (material.relief == nullptr || !material.relief->texture.is_set()) return;
+    Json relief = Json::object();
+    set_texture(relief, "texture", material.relief->texture);
+    relief.update(relief_json(*material.relief));
+    document_.extend(json, kReliefExtension, std::move(relief));
   }
 
   void set_texture(Json& object, const char* name, const Texture& texture) {

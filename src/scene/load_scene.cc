@@ -76,6 +76,10 @@ class SceneLoader {
           layer.texture.picture = merged.pictures[static_cast<std::size_t>(layer.texture.picture)];
         if (layer.projector >= 0) layer.projector += merged.first_light;
       }
+      if (surface.relief) {
+        int& picture = surface.relief->texture.picture;
+        picture = merged.pictures[static_cast<std::size_t>(picture)];
+      }
       surfaces_.push_back(std::move(surface));
     }
   }

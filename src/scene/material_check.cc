@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "laterna/relief.h"
 #include "scene/lobe_factors.h"
 #include "scene/scene_check.h"
 #include "scene/spelling.h"
@@ -28,6 +29,7 @@ class MaterialCheck : SceneCheck {
   void check_material(const Material& material, const std::string& place);
   void check_layers(const Material& material, const std::string& place);
   void check_lobes(const MaterialLobes& lobes, const std::string& place);
+  void check_relief(const Material& material, const std::string& place);
   void check_layer_projector(const SurfaceLayer& layer, const std::string& place);
 };
 
@@ -101,6 +103,7 @@ void MaterialCheck::check_material(const Material& material, const std::string& 
   check_number(place + ".light_map.intensity", material.light_map.intensity, 0, kMaxRadiance);
   check_layers(material, place + ".layers");
   if (material.lobes != nullptr) check_lobes(*material.lobes, place + ".lobes.");
+  check_relief(material, place + ".relief");
 }
 
 void MaterialCheck::check_lobes(const MaterialLobes& lobes, const std::string& place) {
@@ -129,6 +132,16 @@ void MaterialCheck::check_layers(const Material& material, const std::string& pl
     check_number(at + ".opacity", layer.opacity, 0, 1);
     check_enumerator(at + ".blend", layer.blend, BlendMode::dot3);
   }
+}
+
+void MaterialCheck::check_relief(const Material& material, const std::string& place) {
+  if (material.relief == nullptr) return;
+  const Relief& relief = *material.relief;
+  check_texture(relief.texture, place + ".texture");
+  check_number(place + ".depth", relief.depth, 0, kMaxReliefDepth);
+  check_enumerator(place + ".kind", relief.kind, ReliefKind::depth);
+  if (material.alpha_mode == AlphaMode::blend)
+    fault(place, "belongs to opaque surfaces and cut-outs; this material blends");
 }
 
 void MaterialCheck::check_layer_projector(const SurfaceLayer& layer, const std::string& place) {

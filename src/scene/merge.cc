@@ -106,6 +106,11 @@ MergedIndices SceneMerger::add(Scene scene, const std::string& file) {
     }
     for (std::size_t i = 0; material.lobes != nullptr && i < kLobeTextures; ++i)
       remap_picture(lobe_texture_of(material, i).picture, picture);
+    if (material.relief != nullptr) {
+      Relief relief = *material.relief;
+      remap_picture(relief.texture.picture, picture);
+      material.relief = std::make_shared<const Relief>(relief);
+    }
     for (SurfaceLayer& layer : material.layers) {
       remap_picture(layer.texture.picture, picture);
       shift(layer.projector, merged_.lights.size());

@@ -2,11 +2,24 @@
 
 #include "base/elementary.h"
 #include "laterna/blend.h"
+#include "scene/relief_settings.h"
 #include "scene/rig_ranges.h"
 #include "scene/uri.h"
 
 namespace laterna {
 namespace {
+
+// Placed as KHR_texture_transform has it: coordinates of the mesh, scaled, turned and moved, are the picture's.
+void place_texture(JsonObject& object, Texture& texture) {
+  constexpr NumberRange kTurns{-36000, 36000, false, false};
+  texture.uv_set = static_cast<int>(object.whole("uv_set", 0, 1).value_or(0));
+  const auto offset = object.numbers<2>("offset", kCoordinate).value_or(std::array<double, 2>{0, 0});
+  const auto scale = object.numbers<2>("scale", kCoordinate).value_or(std::array<double, 2>{1, 1});
+  const double turn = Angle::degrees(object.number("rotation_deg", kTurns).value_or(0)).in_radians();
+  const double c = cosine(turn), s = sine(turn);
+  const double rows[6] = {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
+  for (std::size_t i = 0; i < 6; ++i) texture.uv_from_mesh_uv[i] = static_cast<float>(rows[i]);
+}
 
 class LayerReader {
  public:
@@ -40,18 +53,10 @@ class LayerReader {
     read_.layer.texture.picture = add_rig_picture(object_, "texture", folder_, pictures_);
   }
 
-  // Placed as KHR_texture_transform has it: coordinates of the mesh, scaled, turned and moved, are the picture's.
   void read_texture() {
-    constexpr NumberRange kTurns{-36000, 36000, false, false};
     Texture& texture = read_.layer.texture;
     read_.texture_place = json_.place(object_.value(), object_.has("uv_set") ? "uv_set" : "texture");
-    texture.uv_set = static_cast<int>(object_.whole("uv_set", 0, 1).value_or(0));
-    const auto offset = object_.numbers<2>("offset", kCoordinate).value_or(std::array<double, 2>{0, 0});
-    const auto scale = object_.numbers<2>("scale", kCoordinate).value_or(std::array<double, 2>{1, 1});
-    const double turn = Angle::degrees(object_.number("rotation_deg", kTurns).value_or(0)).in_radians();
-    const double c = cosine(turn), s = sine(turn);
-    const double rows[6] = {c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
-    for (std::size_t i = 0; i < 6; ++i) texture.uv_from_mesh_uv[i] = static_cast<float>(rows[i]);
+    place_texture(object_, texture);
     read_sampler(texture.sampler);
     if (object_.has("texture")) return;
     for (const std::string_view name : {"uv_set", "offset", "scale", "rotation_deg", "wrap", "filter"}) {
@@ -91,6 +96,19 @@ class LayerReader {
   SurfaceOverride::Layer read_;
 };
 
+Relief read_relief(JsonObject& object, const std::filesystem::path& folder, std::vector<Picture>& pictures) {
+  Relief relief;
+  object.require("picture");
+  relief.texture.picture = add_rig_picture(object, "picture", folder, pictures);
+  place_texture(object, relief.texture);
+  const auto wrap = object.choice<Wrap>(
+      "wrap", {{"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}, {"clamp", Wrap::clamp}});
+  relief.texture.sampler.wrap_u = relief.texture.sampler.wrap_v = wrap.value_or(Wrap::repeat);
+  read_relief_settings(object, relief);
+  object.report_unknown_members("a relief");
+  return relief;
+}
+
 }  // namespace
 
 int add_rig_picture(JsonObject& object, std::string_view member, const std::filesystem::path& folder,
@@ -119,10 +137,15 @@ std::optional<SurfaceOverride> read_rig_surface(const JsonDocument& json, const 
   surface.node = object.string("node");
   if (object.has("material") && object.has("node"))
     object.error("node", "give either material or node, not both");
-  object.require("layers");
+  if (!object.has("relief")) object.require("layers");
   if (const JsonValue* layers = object.array("layers")) {
     for (const JsonValue& layer : layers->children)
       surface.layers.push_back(LayerReader(json, layer, folder, pictures, faults).read());
+  }
+  if (const JsonValue* relief = object.object("relief")) {
+    JsonObject of_relief(json, *relief, faults);
+    surface.relief = read_relief(of_relief, folder, pictures);
+    surface.relief_place = json.place(value, "relief");
   }
   object.report_unknown_members("a surface");
   surface.file = faults.file();

@@ -1,4 +1,4 @@
-// One entry of a rig's "surfaces": layers for the surfaces of a material or of a node.
+// One entry of a rig's "surfaces": layers and a relief for the surfaces of a material or of a node.
 #pragma once
 
 #include <filesystem>

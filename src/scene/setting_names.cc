@@ -60,6 +60,9 @@ constexpr std::array kPairs = std::to_array<SettingNames::Pair>({
     {"cascade_distance", "cascadeDistance"},
     {"light_space_perspective", "lightSpacePerspective"},
     {"dual_paraboloid", "dualParaboloid"},
+    // Reliefs.
+    {"self_shadow", "selfShadow"},
+    {"cut_edges", "cutEdges"},
     // Nodes.
     {"casts_shadow", "castsShadow"},
     {"receives_shadow", "receivesShadow"},

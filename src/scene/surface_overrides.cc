@@ -173,20 +173,34 @@ class SurfaceLayering {
                                        in_quotes(material_at(index).name), all.size(), kMaxSurfaceLayers));
     }
     for (const SurfaceOverride::Layer& read : change_.layers) {
-      if (read.layer.texture.is_set()) check_coordinates(read, index);
+      if (read.layer.texture.is_set())
+        check_coordinates(read.layer.texture, read.texture_place, ": a projector's \"slide\" needs none",
+                          index);
     }
+    if (change_.relief) set_relief(*change_.relief, index);
   }
 
-  void check_coordinates(const SurfaceOverride::Layer& read, int material) {
-    const auto set = static_cast<std::size_t>(read.layer.texture.uv_set);
+  void set_relief(const Relief& relief, int index) {
+    Material& material = material_at(index);
+    if (material.alpha_mode == AlphaMode::blend) {
+      return fault(change_.relief_place,
+                   fmt::format("material {} blends: reliefs belong to opaque surfaces and cut-outs",
+                               in_quotes(material.name)));
+    }
+    material.relief = std::make_shared<const Relief>(relief);
+    check_coordinates(relief.texture, change_.relief_place, "", index);
+  }
+
+  // `otherwise`: what could be done instead.
+  void check_coordinates(const Texture& texture, const std::string& place, std::string_view otherwise,
+                         int material) {
+    const auto set = static_cast<std::size_t>(texture.uv_set);
     for (const Mesh& mesh : scene_.meshes) {
       for (const Primitive& primitive : mesh.primitives) {
         if (primitive.material != material || primitive.positions.empty() || !primitive.uv[set].empty())
           continue;
-        return fault(read.texture_place,
-                     fmt::format("mesh {} has no texture coordinates of set {}: a projector's \"slide\" "
-                                 "needs none",
-                                 in_quotes(mesh.name), set));
+        return fault(place, fmt::format("mesh {} has no texture coordinates of set {}{}",
+                                        in_quotes(mesh.name), set, otherwise));
       }
     }
   }

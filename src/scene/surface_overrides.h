@@ -1,15 +1,16 @@
-// Layers that a rig lays on surfaces of the scene, once all files are there.
+// Layers and reliefs that a rig gives to surfaces of the scene, once all files are there.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "laterna/relief.h"
 #include "laterna/scene.h"
 
 namespace laterna {
 
-/// Layers for the surfaces of one material, of the meshes of one node and of everything below it, or of the whole scene.
+/// Layers and a relief for the surfaces of one material, of the meshes of one node and of everything below it, or of the whole scene.
 struct SurfaceOverride {
   struct Layer {
     SurfaceLayer layer;                ///< its projector is set where the same rig has it
@@ -18,11 +19,14 @@ struct SurfaceOverride {
   };
   std::optional<std::string> material, node;
   std::vector<Layer> layers;
+  std::optional<Relief> relief;  ///< in place of what relief there is
+  std::string relief_place;
   std::string file, place;  ///< where it is written
 };
 
 /// Lays them over what layers there are. A mesh or material that others use too is copied for a node. Faults: no such
-/// material, node or projector; more layers than kMaxSurfaceLayers; texture coordinates that a mesh does not have.
+/// material, node or projector; more layers than kMaxSurfaceLayers; texture coordinates that a mesh does not have; a
+/// relief on what blends.
 void apply(const SurfaceOverride& change, Scene& scene, std::vector<Diagnostic>& faults);
 
 }  // namespace laterna

@@ -28,7 +28,7 @@ class SurfaceCut final : public raster::AlphaCut {
   SurfaceCut(const PointSource& source, bool full_size, InstructionSet set)
       : source_{source, PixelRays(*source.view), full_size}, keep_above_cutoff_(keep_above_cutoff_for(set)) {}
 
-  void keep(TriangleId id, const raster::CutSamples& samples, std::uint16_t* kept) const override {
+  void keep(TriangleId id, raster::CutSamples& samples, std::uint16_t* kept) const override {
     keep_above_cutoff_(source_, id, samples, kept);
   }
 

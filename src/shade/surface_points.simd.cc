@@ -11,6 +11,7 @@
 #include "frame/texture_coordinates-inl.h"
 #include "frame/triangle_corners-inl.h"
 #include "image/texture_lookup-inl.h"
+#include "shade/relief_hit-inl.h"
 #include "shade/surface_hit-inl.h"
 #include "shade/surface_points.h"
 
@@ -113,13 +114,12 @@ HWY_INLINE void Store3(const Vector3& v, float* x, float* y, float* z, std::size
   hn::Store(v.z, d, z + i);
 }
 
+// What is read at hits.
 template <bool kUniform>
-HWY_INLINE void FindPoints(const PointSource& source, const frame::Surface& surface, const PixelRays& rays,
-                           const TriangleCorners<kUniform>& corners, const Facet& facet,
-                           shadow::SurfaceSamples& s, SurfacePoints& p, std::size_t i) {
+HWY_INLINE void StorePoints(const PointSource& source, const frame::Surface& surface,
+                            const TriangleCorners<kUniform>& corners, const Facet& facet, const Hit& hit,
+                            shadow::SurfaceSamples& s, SurfacePoints& p, std::size_t i) {
   const FloatTag d;
-  const Hit hit = FindHit(rays, facet, hn::Load(d, s.x.data() + i), hn::Load(d, s.y.data() + i),
-                          hn::Load(d, s.q.data() + i), source.interpolation);
   const SurfaceReader<kUniform> reader(source, surface, corners, facet, hit);
   const Vector3 seen_normal =
       IfThenElse3(hit.shows_back, facet.unit_normal * Splat(-1.0F), facet.unit_normal);
@@ -156,9 +156,46 @@ HWY_INLINE void FindPoints(const PointSource& source, const frame::Surface& surf
   Store3(emissive, p.emissive_r.data(), p.emissive_g.data(), p.emissive_b.data(), i);
 }
 
+template <bool kUniform>
+HWY_INLINE void FindPoints(const PointSource& source, const frame::Surface& surface, const PixelRays& rays,
+                           const TriangleCorners<kUniform>& corners, const Facet& facet,
+                           shadow::SurfaceSamples& s, SurfacePoints& p, std::size_t i) {
+  const FloatTag d;
+  const Hit hit = FindHit(rays, facet, hn::Load(d, s.x.data() + i), hn::Load(d, s.y.data() + i),
+                          hn::Load(d, s.q.data() + i), source.interpolation);
+  StorePoints(source, surface, corners, facet, hit, s, p, i);
+}
+
+// Samples that lie on the relief of their triangles. A normal map says what the normal is: it was made from the same heights.
+HWY_NOINLINE void FindReliefPoints(const PointSource& source, const frame::Surface& surface,
+                                   const PixelRays& rays, shadow::SurfaceSamples& s, SurfacePoints& p) {
+  const FloatTag d;
+  for (std::size_t i = 0; i < s.group_count * kGroupSize; i += kLanes) {
+    const TriangleCorners<false> corners(*source.frame, s.id.data() + i);
+    const Facet facet = FindFacet<false>(rays, corners.Positions());
+    const ReliefHit found = FindReliefHit(rays, facet, hn::Load(d, s.x.data() + i),
+                                          hn::Load(d, s.y.data() + i), hn::Load(d, s.q.data() + i));
+    StorePoints(source, surface, corners, facet, found.hit, s, p, i);
+    hn::Store(found.dq_dx, d, s.dq_dx.data() + i);
+    hn::Store(found.dq_dy, d, s.dq_dy.data() + i);
+    if (surface.normal_texture.chain != nullptr) continue;
+    const auto coordinates =
+        frame::HWY_NAMESPACE::FindReliefCoordinates(*source.frame, surface.relief, corners);
+    const Vector3 normal = {hn::Load(d, p.normal_x_ws.data() + i), hn::Load(d, p.normal_y_ws.data() + i),
+                            hn::Load(d, p.normal_z_ws.data() + i)};
+    const Vector3 relief = ReliefNormal(facet, surface.relief, coordinates, found.hit.weights, normal);
+    Store3(IfThenElse3(found.hit.shows_back, normal, relief), p.normal_x_ws.data(), p.normal_y_ws.data(),
+           p.normal_z_ws.data(), i);
+  }
+}
+
 void find_surface_points(const PointSource& source, const frame::Surface& surface,
                          shadow::SurfaceSamples& samples, SurfacePoints& points) {
   const PixelRays rays(*source.view);
+  if (HWY_UNLIKELY(surface.relief.field != nullptr)) {
+    FindReliefPoints(source, surface, rays, samples, points);
+    return;
+  }
   const TriangleId* ids = samples.id.data();
   for (std::size_t first = 0; first < samples.group_count * kGroupSize; first += kGroupSize) {
     if (IsOneTriangle(ids + first)) {

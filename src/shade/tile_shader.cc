@@ -7,6 +7,7 @@
 #include "shade/fragment_list.h"
 #include "shade/light_blender.h"
 #include "shade/light_map.h"
+#include "shade/relief_cut.h"
 #include "shade/sample_batch.h"
 #include "shade/scatter.h"
 #include "shade/surface_groups.h"
@@ -55,7 +56,7 @@ class TileShader::Worker {
       : job_(job),
         offsets_(sample_offsets(job.samples_per_pixel, job.jitter)),
         source_{job.frame, job.view, job.interpolation, job.anisotropy},
-        cut_(source_, false, job.instruction_set),
+        cut_(source_, job.instruction_set),
         rasterise_visibility_(raster::rasterise_visibility_for(job.instruction_set)),
         rasterise_fragments_(raster::rasterise_fragments_for(job.instruction_set)),
         find_surface_points_(find_surface_points_for(job.instruction_set)),
@@ -577,7 +578,7 @@ class TileShader::Worker {
   const ShaderJob& job_;
   std::vector<SampleOffset> offsets_;
   PointSource source_;
-  SurfaceCut cut_;
+  ReliefCut cut_;
   raster::RasteriseVisibility rasterise_visibility_;
   raster::RasteriseFragments rasterise_fragments_;
   FindSurfacePoints find_surface_points_;

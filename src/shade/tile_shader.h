@@ -16,7 +16,6 @@
 #include "shade/lobe_shader.h"
 #include "shade/photograph_painter.h"
 #include "shade/shadow_tone.h"
-#include "shade/surface_cut.h"
 #include "shade/tile_layers.h"
 #include "shadow/shadow_technique.h"
 

@@ -217,7 +217,7 @@ TEST_P(RasterSinks, NothingIsDrawnBeforeTheNearOrBeyondTheFarPlane) {
 // Keeps every other sample, and remembers what it was asked.
 class CheckerCut final : public AlphaCut {
  public:
-  void keep(TriangleId, const CutSamples& samples, std::uint16_t* kept) const override {
+  void keep(TriangleId, CutSamples& samples, std::uint16_t* kept) const override {
     EXPECT_NE(samples.count, 0U);
     asked += static_cast<int>(samples.count);
     for (std::size_t i = 0; i < samples.groups() * 16; ++i) {

@@ -411,7 +411,7 @@ TEST_P(SurfacePointsOnEverySet, AlphaIsTheProductOfFactorVertexAndTexture) {
   }
 }
 
-std::uint32_t kept_of(const SurfaceCut& cut, TriangleId id, const raster::CutSamples& samples) {
+std::uint32_t kept_of(const SurfaceCut& cut, TriangleId id, raster::CutSamples samples) {
   std::uint16_t kept = 0;
   cut.keep(id, samples, &kept);
   return kept;

@@ -38,6 +38,7 @@ Chapter lens_chapter();
 Chapter photograph_chapter();
 Chapter lamp_chapter();
 Chapter material_chapter();
+Chapter relief_chapter();
 
 /// A picture of a figure, once it is drawn.
 struct Panel {
