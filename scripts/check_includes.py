@@ -40,6 +40,7 @@ PUBLIC_HEADERS = {
     "false_color.h": "measure",
     "film.h": "image",
     "image.h": "image",
+    "image_based_light.h": "render",
     "instruction_set.h": "base",
     "lamps.h": "scene",
     "lens.h": "base",

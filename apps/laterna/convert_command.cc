@@ -5,6 +5,7 @@
 #include <memory>
 #include <system_error>
 
+#include "laterna/image_based_light.h"
 #include "laterna/write_scene.h"
 #include "outcome.h"
 #include "scene_options.h"
@@ -16,6 +17,7 @@ struct Options {
   SceneOptions scene;
   std::string output;
   bool embeds = false;
+  ImageBasedLightSettings environment;
 };
 
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {
@@ -58,6 +60,10 @@ int run_convert(const Options& options) {
       return report(Error(Failure::bad_input, std::move(faults)));
     pose_scene(*scene, options.scene.time);
   }
+  const Result<RendererOptions> machine = options.scene.renderer_options();
+  if (!machine) return report(machine.error());
+  if (const Result<void> filtered = filter_environment(*scene, options.environment, *machine); !filtered)
+    return report(filtered.error());
   const Result<std::vector<Diagnostic>> written =
       write_scene(*scene, options.output, SceneWriteOptions{.embeds = options.embeds});
   if (!written) return report(written.error());
@@ -73,15 +79,20 @@ void declare_convert(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("convert", "scenes and rigs into one glTF file, projectors and all");
   options->scene.declare_scene(*command);
   command->add_option("-o,--output", options->output, "the file to write: .glb or .gltf")->required();
+  command
+      ->add_option("--environment-size", options->environment.face_size,
+                   "pixels of an environment's six faces where nothing is rough: 32, 64, ... 4096")
+      ->capture_default_str();
+  options->scene.declare_machine(*command);
   command->add_flag("--embed", options->embeds,
                     "a .gltf of one piece: geometry, pictures and lamps inside it, as a .glb has them");
   command->footer(
       "\nWhat is written is what `laterna render` shows at --time: its pictures are the same, bit for bit, "
       "but "
       "for what\n"
-      "a warning tells is not carried: animation, skins, layers on surfaces, environments, photographs. "
-      "Other "
-      "programs see\n"
+      "a warning tells is not carried: animation, skins, layers on surfaces, photographs. Environments are "
+      "filtered\n"
+      "and packed into 8 bits (EXT_lights_image_based), which shows a little. Other programs see\n"
       "projectors as spotlights; what only Laterna knows is in the glTF extensions LATERNA_projector and\n"
       "LATERNA_lighting, which they pass over. Beside a .gltf lie its .bin and those pictures that are not "
       "in its\n"

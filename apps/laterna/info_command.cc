@@ -163,6 +163,20 @@ Json describe_clips(const Scene& scene) {
   return all;
 }
 
+// Null where nothing shines from all around.
+Json describe_environment(const Scene& scene) {
+  if (!scene.environment) return nullptr;
+  const Environment& environment = *scene.environment;
+  const bool is_filtered = environment.picture < 0;
+  const int picture = is_filtered ? environment.specular_pictures.front().front() : environment.picture;
+  constexpr const char* kDistances[] = {"infinite", "box", "sphere"};
+  return {{"picture", scene.pictures[static_cast<std::size_t>(picture)].name},
+          {"filtered_levels", environment.specular_pictures.size()},
+          {"intensity", environment.intensity},
+          {"visible", environment.visible},
+          {"distance", kDistances[static_cast<std::size_t>(environment.distance)]}};
+}
+
 Json describe(const Scene& scene, double time) {
   const Totals totals = count(scene);
   const std::vector<glm::dmat4> world = world_from_nodes(scene);
@@ -177,6 +191,7 @@ Json describe(const Scene& scene, double time) {
             {"lights", Json::array()},
             {"materials", Json::array()},
             {"pictures", describe_pictures(scene, time)},
+            {"environment", describe_environment(scene)},
             {"clips", describe_clips(scene)},
             {"skins", scene.skins.size()}};
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
@@ -241,6 +256,14 @@ void print_table(const Json& j, const ThrownPictures& thrown) {
                                                p["size"][0].get<int>(), p["size"][1].get<int>())
                                  : "in memory";
     fmt::print("  {:<18} {}{}\n", size, p["name"].get<std::string>(), film_text(p));
+  }
+  if (const Json& e = j["environment"]; !e.is_null()) {
+    const auto levels = e["filtered_levels"].get<std::size_t>();
+    fmt::print(
+        "{:<12} {}{}, times {:.3g}{}, {}\n", "environment", e["picture"].get<std::string>(),
+        levels > 0 ? fmt::format(" and {} more, filtered for {} roughnesses", 6 * levels - 1, levels) : "",
+        e["intensity"].get<double>(), e["visible"].get<bool>() ? "" : ", hidden",
+        e["distance"] == "infinite" ? "infinitely far" : "on a " + e["distance"].get<std::string>());
   }
   fmt::print("{:<12} {}\n", "cameras", j["cameras"].size());
   for (const Json& c : j["cameras"]) {

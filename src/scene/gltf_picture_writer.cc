@@ -221,17 +221,22 @@ Result<Json> PictureWriter::slide(int picture) {
 
 std::string PictureWriter::film(int picture) const { return surroundings_.uri_of(at(picture).file); }
 
-double PictureWriter::aspect(int picture) const {
+PictureWriter::Size PictureWriter::size(int picture) const {
   const Picture& source = at(picture);
-  const auto ratio = [](const auto& size) { return static_cast<double>(size.width) / size.height; };
+  const auto size_of = [](const auto& header) { return Size{header.width, header.height}; };
   if (source.film) {
     const Result<FilmHeader> film = read_film_header(source.file, source.film->frames_per_second);
-    return film ? ratio(*film) : 1;
+    return film ? size_of(*film) : Size();
   }
-  if (source.pixels != nullptr) return static_cast<double>(source.pixels->width()) / source.pixels->height();
+  if (source.pixels != nullptr) return {source.pixels->width(), source.pixels->height()};
   const Result<ImageHeader> header =
       source.file.empty() ? read_image_header(source.encoded, source.name) : read_image_header(source.file);
-  return header ? ratio(*header) : 1;
+  return header ? size_of(*header) : Size();
+}
+
+double PictureWriter::aspect(int picture) const {
+  const Size pixels = size(picture);
+  return static_cast<double>(pixels.width) / pixels.height;
 }
 
 }  // namespace laterna::gltf

@@ -55,7 +55,14 @@ class PictureWriter {
   Result<Json> slide(int picture);
   /// The URI of a film.
   [[nodiscard]] std::string film(int picture) const;
-  /// Width over height; 1 where the picture cannot be read.
+  /// The index in images[] of a picture.
+  Result<int> image(int picture);
+  /// Pixels; one where the picture cannot be read.
+  struct Size {
+    int width = 1, height = 1;
+  };
+  [[nodiscard]] Size size(int picture) const;
+  /// Width over height.
   [[nodiscard]] double aspect(int picture) const;
 
  private:
@@ -74,7 +81,6 @@ class PictureWriter {
   [[nodiscard]] Result<Encoded> encoded(int picture) const;
   Result<Encoded> as_png(int picture, Encoded file);
   Json image_json(int picture, Encoded file);
-  Result<int> image(int picture);
   int texture_of(int image, std::optional<int> sampler);
   int sampler(const Sampler& sampler);
 

@@ -9,6 +9,7 @@
 #include "base/without_exceptions.h"
 #include "image/file_ending.h"
 #include "scene/gltf_camera_writer.h"
+#include "scene/gltf_environment_writer.h"
 #include "scene/gltf_light_writer.h"
 #include "scene/gltf_material_writer.h"
 #include "scene/gltf_mesh_writer.h"
@@ -71,7 +72,6 @@ void warn_of_rest(const Scene& scene, Document& document) {
     document.warn("photographs", "glTF has no photographs: add them again with `laterna photo`");
   if (std::ranges::any_of(scene.materials, [](const Material& m) { return !m.layers.empty(); }))
     document.warn("surfaces", "layers on surfaces are not carried: keep the rig that has them");
-  if (scene.environment) document.warn("environment", "is not carried: keep the rig that has it");
   if (!scene.clips.empty())
     document.warn("clips", "animation is not carried: the file shows one instant of it");
   if (!scene.skins.empty())
@@ -100,6 +100,8 @@ Result<GltfFiles> make(const Scene& scene, const std::filesystem::path& file,
   gltf::LightWriter lights(scene, pictures, surroundings, document);
   if (const auto written = lights.write(); !written) return tl::unexpected(written.error());
   if (const auto written = gltf::write_nodes(scene, meshes, lights, document); !written)
+    return tl::unexpected(written.error());
+  if (const auto written = gltf::write_environment(scene, pictures, document); !written)
     return tl::unexpected(written.error());
   warn_of_rest(scene, document);
 

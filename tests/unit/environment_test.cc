@@ -6,6 +6,8 @@
 
 #include "image/environment_cache.h"
 #include "laterna/environment_probe.h"
+#include "laterna/image_based_light.h"
+#include "laterna/write_scene.h"
 #include "reference/shapes.h"
 #include "unit/gltf_builder.h"
 
@@ -172,6 +174,59 @@ TEST(EnvironmentFiles, GltfImageBasedLight) {
     for (int k = 0; k < 3; ++k)
       EXPECT_NEAR(at(image, std::string(1, "RGB"[k]), 4, 4), colours[face][k] * 2.5F, 1e-5) << face;
   }
+}
+
+// Written as EXT_lights_image_based and read back, balls of three roughnesses look as they did: directions, brightness far
+// above white, the turn and the harmonics' signs. What is left are faces of 8 bits.
+TEST(EnvironmentFiles, GltfImageBasedLightIsWritten) {
+  const TemporaryFolder folder;
+  auto sky = std::make_shared<Image>(64, 32, 3, PixelType::f32, Transfer::linear);
+  const auto values = sky->values<float>();
+  for (std::size_t i = 0; i < values.size() / 3; ++i) {
+    const auto d = direction_from_image(
+        EnvironmentChart::latlong,
+        {(static_cast<double>(i % 64) + 0.5) / 64, (static_cast<double>(i / 64) + 0.5) / 32});
+    const double window = glm::dot(*d, glm::normalize(glm::dvec3(-2, 1, 1))) > 0.9 ? 40 : 0;
+    values[3 * i] = static_cast<float>(0.5 + 0.4 * d->x + window);
+    values[3 * i + 1] = static_cast<float>(0.5 + 0.4 * d->y + window);
+    values[3 * i + 2] = static_cast<float>(0.5 - 0.4 * d->z);
+  }
+  Scene scene;
+  for (int i = 0; i < 3; ++i) {
+    add_object(scene, "ball", sphere({2.2F * static_cast<float>(i - 1), 0, 0}, 1, 32), {0.9F, 0.8F, 0.7F});
+    scene.materials.back().metallic = i == 2 ? 0.0F : 1.0F;
+    scene.materials.back().roughness = 0.5F * static_cast<float>(i);
+  }
+  scene.pictures.push_back({});
+  scene.pictures.back().pixels = sky;
+  scene.environment.emplace();
+  scene.environment->picture = 0;
+  scene.environment->intensity = 0.7;
+  scene.environment->world_from_environment = {0, 0, -1, 0, 1, 0, 1, 0, 0};
+  const View view = look({1, 2, 8}, {0, 0, 0}, 45, 1);
+  RenderSettings settings = test_settings(64, 64);
+  settings.shading = ShadingModel::pbr;
+  const LayeredImage before = render(make_renderer(scene), view, settings);
+
+  ASSERT_TRUE(filter_environment(scene, {128}).has_value());
+  ASSERT_EQ(scene.environment->specular_pictures.size(), 4U);
+  const auto written = write_scene(scene, folder / "lit.glb");
+  ASSERT_TRUE(written.has_value());
+  EXPECT_TRUE(written->empty());
+  const Scene read = load_or_fail({folder / "lit.glb"});
+  ASSERT_TRUE(read.environment.has_value());
+  EXPECT_EQ(*read.environment->irradiance, *scene.environment->irradiance);
+  const LayeredImage after = render(make_renderer(read), view, settings);
+  double error = 0, sum = 0;
+  for (const char* channel : {"R", "G", "B"}) {
+    const std::vector<float>&a = before.find(channel)->values, &b = after.find(channel)->values;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      error += std::abs(a[i] - b[i]);
+      sum += a[i];
+    }
+  }
+  EXPECT_LT(error / sum, 0.02);
+  EXPECT_FALSE(filter_environment(scene, {100}).has_value());
 }
 
 TEST(EnvironmentCache, KeepsWhatIsWholeAndNothingElse) {
