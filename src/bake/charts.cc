@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <queue>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -97,7 +98,7 @@ class ChartCutter {
 
   std::vector<Chart> cut() {
     find_normals();
-    const std::vector<std::uint32_t> neighbours = find_neighbours(corners_ws_);
+    neighbours_ = find_neighbours(corners_ws_);
     std::vector<std::uint32_t> seeds;
     for (std::uint32_t t = 0; t < areas_.size(); ++t) {
       if (areas_[t] > 0) seeds.push_back(t);
@@ -106,7 +107,7 @@ class ChartCutter {
                      [&](std::uint32_t a, std::uint32_t b) { return areas_[a] > areas_[b]; });
     std::vector<bool> is_taken(areas_.size(), false);
     for (const std::uint32_t seed : seeds) {
-      if (!is_taken[seed]) add(grow(seed, neighbours, is_taken));
+      if (!is_taken[seed]) add(grow(seed, is_taken));
     }
     return std::move(charts_);
   }
@@ -124,8 +125,7 @@ class ChartCutter {
   }
 
   // The triangles about `seed` that face the same way, those that do so best first.
-  std::vector<std::uint32_t> grow(std::uint32_t seed, const std::vector<std::uint32_t>& neighbours,
-                                  std::vector<bool>& is_taken) const {
+  std::vector<std::uint32_t> grow(std::uint32_t seed, std::vector<bool>& is_taken) const {
     const auto [u, v] = axes_about(normals_[seed]);
     glm::dvec2 low(INFINITY), high(-INFINITY);
     using Candidate = std::pair<double, std::uint32_t>;  // cosine; the lesser number wins among equals
@@ -153,7 +153,7 @@ class ChartCutter {
       is_taken[triangle] = true;
       triangles.push_back(triangle);
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t next = neighbours[3 * triangle + k];
+        const std::uint32_t next = neighbours_[3 * triangle + k];
         if (next == kNone || is_taken[next] || !(areas_[next] > 0)) continue;
         const double cosine = glm::dot(normals_[next], normals_[seed]);
         if (cosine >= kLeastChartCosine) front.emplace(cosine, next);
@@ -181,31 +181,35 @@ class ChartCutter {
     for (const std::uint32_t t : triangles) {
       for (std::size_t k = 0; k < 3; ++k) flat.push_back(chart.flat(corners_ws_[3 * t + k]));
     }
-    if (triangles.size() > 1 && overlap(flat, resolution_)) return split(std::move(triangles), flat);
+    if (triangles.size() > 1 && overlap(flat, resolution_)) return split(triangles);
     chart.triangles = std::move(triangles);
     turn(chart, flat);
     charts_.push_back(std::move(chart));
   }
 
-  // Winding surfaces are halved until they lie flat.
-  void split(std::vector<std::uint32_t> triangles, const std::vector<glm::dvec2>& flat) {
-    glm::dvec2 low(INFINITY), high(-INFINITY);
-    for (const glm::dvec2& p : flat) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
+  // Winding surfaces are halved along their way until they lie flat.
+  void split(const std::vector<std::uint32_t>& triangles) {
+    const std::uint32_t end = by_steps_from(triangles.front(), triangles).back();
+    const std::vector<std::uint32_t> order = by_steps_from(end, triangles);
+    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
+    add({order.begin(), middle});
+    add({middle, order.end()});
+  }
+
+  // Triangles by how many edges lead to them; those to which none does come last.
+  [[nodiscard]] std::vector<std::uint32_t> by_steps_from(std::uint32_t first,
+                                                         const std::vector<std::uint32_t>& triangles) const {
+    std::set<std::uint32_t> left(triangles.begin(), triangles.end());
+    std::vector<std::uint32_t> order = {first};
+    left.erase(first);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t next = neighbours_[3 * order[i] + k];
+        if (next != kNone && left.erase(next) > 0) order.push_back(next);
+      }
     }
-    const int axis = high.x - low.x >= high.y - low.y ? 0 : 1;
-    std::vector<std::pair<double, std::uint32_t>> order;
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      const double middle = flat[3 * i][axis] + flat[3 * i + 1][axis] + flat[3 * i + 2][axis];
-      order.emplace_back(middle, triangles[i]);
-    }
-    std::sort(order.begin(), order.end());
-    std::vector<std::uint32_t> first, second;
-    for (std::size_t i = 0; i < order.size(); ++i)
-      (i < order.size() / 2 ? first : second).push_back(order[i].second);
-    add(std::move(first));
-    add(std::move(second));
+    order.insert(order.end(), left.begin(), left.end());
+    return order;
   }
 
   // One side of the smallest rectangle about a set of points lies on an edge of its hull (Freeman & Shapira 1975).
@@ -249,6 +253,7 @@ class ChartCutter {
   double resolution_, max_size_;
   std::vector<glm::dvec3> normals_;
   std::vector<double> areas_;
+  std::vector<std::uint32_t> neighbours_;  // beyond each edge
   std::vector<Chart> charts_;
 };
 

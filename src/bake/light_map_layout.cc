@@ -20,7 +20,7 @@ namespace laterna::bake {
 namespace {
 
 // Squares per luxel's side in which charts are looked at for overlap.
-constexpr double kOverlapSquares = 4;
+constexpr double kOverlapSquares = 2;
 
 struct SurfaceOfMesh {
   std::size_t mesh, primitive;

@@ -175,7 +175,8 @@ TEST(Bake, DoubleSidedSurfacesHaveLightOnBothSides) {
   Scene scene;
   add_object(scene, "sheet", floor(1));
   scene.materials[0].double_sided = true;
-  add_light(scene, bulb("below", 10), {0, -1, 0}, {0, 0, 0});
+  scene.phong = PhongHighlight{};
+  add_light(scene, bulb("below", 10), {0, -1, 0}, {1, 0, 0});
   BakeSettings settings;
   settings.density = 32;
   const Result<BakedScene> baked = bake_light(scene, settings);
@@ -197,7 +198,7 @@ TEST(Bake, InstancesHaveTheirOwnLight) {
   scene.nodes[0].node_from_instance = {glm::dmat4(1), glm::dmat4(1)};
   scene.nodes[0].node_from_instance[1][3] = {0, -1, 0, 1};
   scene.nodes[0].casts_shadow = false;
-  add_light(scene, bulb("lamp", 10), {0, 1, 0}, {0, 0, 0});
+  add_light(scene, bulb("lamp", 10), {0, 1, 0}, {1, 0, 0});
   const Result<BakedScene> baked = bake_light(scene, {});
   ASSERT_TRUE(baked);
   std::vector<float> greatest;
@@ -220,7 +221,7 @@ TEST(Bake, SecondTextureCoordinatesThatServeAreKept) {
   add_object(scene, "floor", floor(1));
   Primitive& p = scene.meshes[0].primitives[0];
   for (const glm::vec3& at : p.positions) p.uv[1].emplace_back(at.x / 4 + 0.5F, at.z / 4 + 0.5F);
-  add_light(scene, bulb("lamp", 10), {0, 1, 0}, {0, 0, 0});
+  add_light(scene, bulb("lamp", 10), {0, 1, 0}, {1, 0, 0});
   BakeSettings settings;
   settings.density = 10;
   const Result<BakedScene> kept = bake_light(scene, settings);
@@ -239,7 +240,7 @@ TEST(Bake, GoesOnWhereItWasStopped) {
   const TemporaryFolder folder;
   Scene scene;
   add_object(scene, "floor", floor(10));
-  add_light(scene, bulb("lamp", 10), {0, 1, 0}, {0, 0, 0});
+  add_light(scene, bulb("lamp", 10), {0, 1, 0}, {1, 0, 0});
   BakeSettings settings;
   settings.density = 32;
   settings.samples = 1;
@@ -277,11 +278,11 @@ TEST(Bake, RefusesWhatMakesNoSense) {
   settings.lights = {"moon"};
   EXPECT_EQ(message(lit_shapes(), settings), "the scene has no light \"moon\"");
   settings = {};
-  settings.density = 1000;
+  settings.max_size = 64;
   EXPECT_EQ(message(lit_shapes(), settings),
-            "object \"floor\": a triangle of 4 m takes more than a light map of 2048 luxels: at most 511.75 "
-            "luxels per "
-            "metre fit, asked for were 1000");
+            "object \"floor\": a triangle of 5.65685 m takes more than a light map of 64 luxels: at most "
+            "11.1369 luxels per "
+            "metre fit, asked for were 16");
 }
 
 TEST(LightMapFiles, FaultsAreNamedWithTheirPlaces) {
@@ -289,7 +290,7 @@ TEST(LightMapFiles, FaultsAreNamedWithTheirPlaces) {
     const char* extension;
     const char* message;
   } kCases[] = {
-      {R"({})", "materials[0].extensions.LATERNA_light_map: expected \"front\""},
+      {R"({})", "materials[0].extensions.LATERNA_light_map.front: is missing"},
       {R"({"front": 3})", "materials[0].extensions.LATERNA_light_map.front: expected an object"},
       {R"({"front": {"index": 9}})", "materials[0].extensions.LATERNA_light_map.front.index"},
       {R"({"front": {"uri": "data:,"}, "texCoord": 2})",
