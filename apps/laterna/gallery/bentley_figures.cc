@@ -145,8 +145,8 @@ void draw_fudge(Sitting& sitting) {
 void draw_radiosity(Sitting& sitting, Shot shot) {
   shot.scene.ambient = glm::vec3(0);
   BakeSettings settings;
-  settings.density = std::max(2.0, 24 * sitting.scale());
-  settings.interreflection = RadiositySettings{};
+  settings.density = std::max(2.0, 16 * sitting.scale());
+  settings.interreflection = RadiositySettings{.rays = 64};
   std::optional<BakedScene> baked = sitting.accept(bake_light(std::move(shot.scene), settings));
   if (!baked) return;
   shot.scene = std::move(baked->scene);
