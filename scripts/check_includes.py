@@ -45,6 +45,7 @@ PUBLIC_HEADERS = {
     "lens.h": "base",
     "measure.h": "measure",
     "light_color.h": "image",
+    "mirrors.h": "scene",
     "output.h": "base",
     "polar_plot.h": "measure",
     "probes.h": "render",

@@ -31,6 +31,7 @@
 namespace laterna {
 
 struct LightDistribution;  // laterna/lamps.h
+struct Mirror;             // laterna/mirrors.h
 
 // ---------------------------------------------------------------------------------------------- pictures in a scene
 
@@ -95,8 +96,9 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
   bool double_sided = false;
-  bool unlit = false;                ///< KHR_materials_unlit: base colour is what is seen
-  std::vector<SurfaceLayer> layers;  ///< at most kMaxSurfaceLayers
+  bool unlit = false;                    ///< KHR_materials_unlit: base colour is what is seen
+  std::vector<SurfaceLayer> layers;      ///< at most kMaxSurfaceLayers
+  std::shared_ptr<const Mirror> mirror;  ///< null: it mirrors nothing but the environment
 };
 
 /// Triangles of one material. Attributes are empty or as long as `positions`.

@@ -51,6 +51,7 @@ Surface make_surface(const Material& m, const TextureLibrary& library, std::span
   s.occlusion_texture = bind(m.occlusion_texture, image::MipUse::data, library);
   s.emissive_texture = bind(m.emissive_texture, image::MipUse::colour, library);
   for (const SurfaceLayer& layer : m.layers) s.layers.push_back(make_layer(layer, library, decals));
+  s.mirror = m.mirror;
   return s;
 }
 
@@ -103,6 +104,8 @@ void Frame::make_surfaces(const Scene& scene) {
   for (const Material& material : scene.materials)
     surfaces.push_back(make_surface(material, *textures, decal_lights_of_scene));
   surfaces.push_back(make_surface(Material{}, *textures, {}));
+  has_mirrors = std::any_of(surfaces.begin(), surfaces.end(),
+                            [](const Surface& surface) { return surface.mirror != nullptr; });
   // Photographs hold the light that they were taken in.
   if (!scene.photographs.empty() && !scene.photograph_settings.are_lit) {
     for (Surface& surface : surfaces) surface.unlit = true;

@@ -52,6 +52,7 @@ struct Surface {
   TextureBinding base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
       emissive_texture;
   std::vector<LayerBinding> layers;
+  std::shared_ptr<const Mirror> mirror;  ///< null: none
 };
 
 /// A light where it stands. Colour and intensity stay in the scene's Light.
@@ -161,6 +162,7 @@ class Frame {
   bool has_blended_casters = false;
   bool all_receive_shadows = true;
   bool has_environment = false;
+  bool has_mirrors = false;
   std::shared_ptr<const TextureLibrary> textures;
 };
 

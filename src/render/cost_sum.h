@@ -17,6 +17,7 @@ inline void add_costs(RenderStatistics& sum, const RenderStatistics& one) {
   sum.triangles_drawn += one.triangles_drawn;
   sum.maps_drawn += one.maps_drawn;
   sum.maps_kept += one.maps_kept;
+  sum.mirror_pictures += one.mirror_pictures;
   sum.shadow_memory = one.shadow_memory;
   sum.silhouettes = one.silhouettes;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "laterna/mirrors.h"
 #include "scene/scene_check.h"
 #include "scene/spelling.h"
 
@@ -26,6 +27,7 @@ class MaterialCheck : SceneCheck {
   void check_texture(const Texture& texture, const std::string& place);
   void check_material(const Material& material, const std::string& place);
   void check_layers(const Material& material, const std::string& place);
+  void check_mirror(const Mirror& mirror, const std::string& place);
   void check_layer_projector(const SurfaceLayer& layer, const std::string& place);
 };
 
@@ -95,6 +97,26 @@ void MaterialCheck::check_material(const Material& material, const std::string& 
   check_texture(material.occlusion_texture, place + ".occlusion_texture");
   check_texture(material.emissive_texture, place + ".emissive_texture");
   check_layers(material, place + ".layers");
+  if (material.mirror != nullptr) check_mirror(*material.mirror, place + ".mirror");
+}
+
+void MaterialCheck::check_mirror(const Mirror& mirror, const std::string& place) {
+  check_color(place + ".reflectance", mirror.reflectance, 1);
+  if (mirror.ior) check_number(place + ".ior", *mirror.ior, 1, kMaxMirrorIor);
+  check_number(place + ".roughness", mirror.roughness, 0, 1);
+  if (mirror.waves.size() > kMaxWaves)
+    fault(place + ".waves", fmt::format("{} waves are more than {}", mirror.waves.size(), kMaxWaves));
+  for (std::size_t i = 0; i < mirror.waves.size(); ++i) {
+    const Wave& wave = mirror.waves[i];
+    const std::string at = item(place + ".waves", i);
+    for (int k = 0; k < 3; ++k)
+      check_number(at + ".direction_ws", wave.direction_ws[k], -kMaxCoordinate, kMaxCoordinate);
+    if (wave.direction_ws == glm::dvec3(0)) fault(at + ".direction_ws", "is the zero vector");
+    check_number(at + ".length", wave.length, kShortestWave, kMaxCoordinate);
+    check_number(at + ".amplitude", wave.amplitude, 0, kMaxCoordinate);
+    if (wave.speed) check_number(at + ".speed", *wave.speed, -1e6, 1e6);
+    check_number(at + ".phase", wave.phase, -1000, 1000);
+  }
 }
 
 void MaterialCheck::check_layers(const Material& material, const std::string& place) {

@@ -2,6 +2,7 @@
 
 #include "base/elementary.h"
 #include "laterna/blend.h"
+#include "scene/rig_mirror.h"
 #include "scene/rig_ranges.h"
 #include "scene/uri.h"
 
@@ -119,7 +120,11 @@ std::optional<SurfaceOverride> read_rig_surface(const JsonDocument& json, const 
   surface.node = object.string("node");
   if (object.has("material") && object.has("node"))
     object.error("node", "give either material or node, not both");
-  object.require("layers");
+  if (const JsonValue* mirror = object.object("mirror")) {
+    surface.mirror = read_rig_mirror(json, *mirror, faults);
+  } else {
+    object.require("layers");
+  }
   if (const JsonValue* layers = object.array("layers")) {
     for (const JsonValue& layer : layers->children)
       surface.layers.push_back(LayerReader(json, layer, folder, pictures, faults).read());

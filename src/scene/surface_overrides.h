@@ -1,6 +1,7 @@
 // Layers that a rig lays on surfaces of the scene, once all files are there.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ struct SurfaceOverride {
   };
   std::optional<std::string> material, node;
   std::vector<Layer> layers;
-  std::string file, place;  ///< where it is written
+  std::shared_ptr<const Mirror> mirror;  ///< in place of what there is; null: none
+  std::string file, place;               ///< where it is written
 };
 
 /// Lays them over what layers there are. A mesh or material that others use too is copied for a node. Faults: no such

@@ -13,6 +13,7 @@
 #include "shade/illumination.h"
 #include "shade/layer_painter.h"
 #include "shade/light_reach.h"
+#include "shade/mirror_shader.h"
 #include "shade/photograph_painter.h"
 #include "shade/shadow_tone.h"
 #include "shade/surface_cut.h"
@@ -49,6 +50,7 @@ struct ShaderJob {
   PhotographJob photographs;
   std::vector<ShaderDecal> decals;  // the frame's
   std::optional<EnvironmentLight> environment;
+  MirrorJob mirrors;
   std::vector<BoundLight> physical_lights;  // for lux where the model is not physical; otherwise empty
   ReflectionSettings reflection;
   Interpolation interpolation = Interpolation::perspective;
