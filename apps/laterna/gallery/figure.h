@@ -37,6 +37,7 @@ Chapter later_chapter();
 Chapter lens_chapter();
 Chapter photograph_chapter();
 Chapter lamp_chapter();
+Chapter mirror_chapter();
 
 /// A picture of a figure, once it is drawn.
 struct Panel {
