@@ -47,6 +47,7 @@ PUBLIC_HEADERS = {
     "material_lobes.h": "scene",
     "measure.h": "measure",
     "light_color.h": "image",
+    "mirrors.h": "scene",
     "output.h": "base",
     "polar_plot.h": "measure",
     "probes.h": "render",

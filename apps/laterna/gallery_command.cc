@@ -31,7 +31,8 @@ struct Options {
 std::vector<Chapter> all_chapters() {
   return {segal_1992_chapter(), chen_tung_chapter(),   mit_lecture_20_chapter(), wikipedia_chapter(),
           bentley_chapter(),    environment_chapter(), later_chapter(),          lens_chapter(),
-          photograph_chapter(), lamp_chapter(),        material_chapter(),       relief_chapter()};
+          photograph_chapter(), lamp_chapter(),        material_chapter(),       relief_chapter(),
+          mirror_chapter()};
 }
 
 int list_figures() {

@@ -22,6 +22,7 @@
 #include "laterna/blend.h"
 #include "laterna/light_color.h"
 #include "laterna/measure.h"
+#include "laterna/mirrors.h"
 #include "laterna/technique_choice.h"
 #include "laterna/turntable.h"
 #include "layer_pictures.h"
@@ -65,7 +66,7 @@ struct RenderOptions {
               depth = "auto";
   std::string exposure = "0", background, debug, false_color;
   std::vector<std::string> layers;
-  int samples = 1, anisotropy = 8, accumulate = 1;
+  int samples = 1, anisotropy = 8, accumulate = 1, mirror_depth = 2;
   double noise = 0;
   bool progressive = false, resume = false, turntable = false, json = false;
 };
@@ -99,6 +100,7 @@ Result<RenderSettings> parse_settings(const RenderOptions& options) {
   settings.samples = options.samples;
   settings.anisotropy = options.anisotropy;
   settings.accumulate = options.accumulate;
+  settings.mirror_depth = options.mirror_depth;
   settings.noise = options.noise;
   settings.shading = kShading.at(options.shading);
   settings.passes = kPasses.at(options.passes);
@@ -662,6 +664,9 @@ void declare_picture_options(CLI::App& command, RenderOptions& o) {
   command
       .add_option("--anisotropy", o.anisotropy, "most probes along a stretched texture footprint, 1 to 16")
       ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  command.add_option("--mirror-depth", o.mirror_depth, "how many mirrors are seen one in the other, 0 to 8")
+      ->check(CLI::Range(0, kMaxMirrorDepth))
       ->capture_default_str();
 }
 

@@ -23,8 +23,8 @@ namespace laterna {
 
 /// Groups of channels beside beauty; list_layers() describes them.
 enum class Layer : std::uint8_t {
-  /// ambient.R/G/B, light.<name>.R/G/B and, where there is one, environment.R/G/B; beauty is their sum in this order, bit
-  /// for bit
+  /// ambient.R/G/B, light.<name>.R/G/B and, where there is one, environment.R/G/B, and of scenes with mirrors
+  /// reflection.R/G/B; beauty is their sum in this order, bit for bit
   light,
   visibility,  ///< visibility.<name>: the fraction α of the light that arrives
   uv,          ///< uv.<name>.u/.v: slide coordinates of projectors, NaN outside the frame
@@ -67,6 +67,8 @@ struct RenderSettings {
   int accumulate = 1;
   /// No more pictures than it takes for this estimated noise, a fraction of the mean luminance. 0: all.
   double noise = 0;
+  /// How many mirrors are seen one in the other (laterna/mirrors.h): 0 … kMaxMirrorDepth. The last are plain surfaces.
+  int mirror_depth = 2;
   bool keep_shadow_maps = true;  ///< false: drawn anew even where nothing has changed
 };
 
@@ -130,7 +132,8 @@ struct RenderStatistics {
     std::size_t bytes = 0;  ///< kept when the picture was done
   };
   MapReuse map_reuse;
-  int pictures = 1;  ///< that were averaged
+  int mirror_pictures = 0;  ///< drawn of what mirrors show
+  int pictures = 1;         ///< that were averaged
   /// Estimated standard error of the picture's luminance, over all pixels, as a fraction of its mean. 0 for one picture.
   double noise = 0;
   struct LightMemory {

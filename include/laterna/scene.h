@@ -32,6 +32,7 @@ namespace laterna {
 
 struct LightDistribution;  // laterna/lamps.h
 struct MaterialLobes;      // laterna/material_lobes.h
+struct Mirror;             // laterna/mirrors.h
 struct Relief;             // laterna/relief.h
 
 // ---------------------------------------------------------------------------------------------- pictures in a scene
@@ -112,6 +113,7 @@ struct Material {
   /// Clear coats, sheen, glass and more; null: none. docs/materials.md
   std::shared_ptr<const MaterialLobes> lobes;
   std::shared_ptr<const Relief> relief;  ///< null: flat
+  std::shared_ptr<const Mirror> mirror;  ///< null: it mirrors nothing but the environment
 };
 
 /// Triangles of one material. Attributes are empty or as long as `positions`.

@@ -57,6 +57,7 @@ Surface make_surface(const Material& m, const TextureLibrary& library, std::span
     s.relief = {library.find_relief(r),      r.texture.uv_set, r.texture.uv_from_mesh_uv,
                 static_cast<float>(r.depth), r.self_shadow,    r.cut_edges};
   }
+  s.mirror = m.mirror;
   return s;
 }
 
@@ -109,6 +110,8 @@ void Frame::make_surfaces(const Scene& scene) {
   for (const Material& material : scene.materials)
     surfaces.push_back(make_surface(material, *textures, decal_lights_of_scene));
   surfaces.push_back(make_surface(Material{}, *textures, {}));
+  has_mirrors = std::any_of(surfaces.begin(), surfaces.end(),
+                            [](const Surface& surface) { return surface.mirror != nullptr; });
   // Photographs hold the light that they were taken in.
   if (!scene.photographs.empty() && !scene.photograph_settings.are_lit) {
     for (Surface& surface : surfaces) surface.unlit = true;

@@ -74,6 +74,7 @@ struct Surface {
   LightMapBinding light_map;
   std::shared_ptr<const SurfaceLobes> lobes;  ///< null: none
   ReliefBinding relief;
+  std::shared_ptr<const Mirror> mirror;  ///< null: none
 };
 
 /// A light where it stands. Colour and intensity stay in the scene's Light.
@@ -192,6 +193,7 @@ class Frame {
   bool all_receive_shadows = true;
   bool has_environment = false;
   bool has_transmission = false;
+  bool has_mirrors = false;
   std::shared_ptr<const TextureLibrary> textures;
 };
 

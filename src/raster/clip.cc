@@ -3,7 +3,7 @@
 namespace laterna::raster {
 namespace {
 
-// Signed distance to plane 0…4, linear in the homogeneous position, ≥ 0 inside.
+// Signed distance to plane 0…5, linear in the homogeneous position, ≥ 0 inside.
 double distance(const ClipVertex& v, int plane, double guard_band) {
   switch (plane) {
     case 0:
@@ -14,8 +14,10 @@ double distance(const ClipVertex& v, int plane, double guard_band) {
       return guard_band * v.w - v.x;
     case 3:
       return guard_band * v.w + v.y;
-    default:
+    case 4:
       return guard_band * v.w - v.y;
+    default:
+      return v.cut_side;
   }
 }
 
@@ -25,7 +27,8 @@ ClipVertex intersect(const ClipVertex& inside, double d_inside, const ClipVertex
   const double t = d_inside / (d_inside - d_outside);
   return {inside.x + t * (outside.x - inside.x), inside.y + t * (outside.y - inside.y),
           inside.w + t * (outside.w - inside.w),
-          inside.near_side + t * (outside.near_side - inside.near_side)};
+          inside.near_side + t * (outside.near_side - inside.near_side),
+          inside.cut_side + t * (outside.cut_side - inside.cut_side)};
 }
 
 bool is_inside(const ClippedPolygon& polygon, int plane, double guard_band) {
@@ -44,10 +47,11 @@ void append(ClippedPolygon& polygon, const ClipVertex& vertex, int corner) {
 }  // namespace
 
 // Sutherland and Hodgman, Reentrant polygon clipping, 1974.
-ClippedPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, double guard_band) {
+ClippedPolygon clip_triangle(const std::array<ClipVertex, 3>& triangle, double guard_band, bool is_cut) {
+  const int planes = is_cut ? 6 : 5;
   ClippedPolygon polygon;
   for (int i = 0; i < 3; ++i) append(polygon, triangle[static_cast<std::size_t>(i)], i);
-  for (int plane = 0; plane < 5 && polygon.count >= 3; ++plane) {
+  for (int plane = 0; plane < planes && polygon.count >= 3; ++plane) {
     if (is_inside(polygon, plane, guard_band)) continue;
     ClippedPolygon cut;
     for (std::size_t i = 0; i < polygon.count; ++i) {

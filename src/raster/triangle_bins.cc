@@ -31,7 +31,8 @@ Bounds over_box(const Halfspace& h, glm::dvec3 centre, glm::dvec3 extent) {
 
 class ClusterPlacer {
  public:
-  ClusterPlacer(const RasterView& view, const Rect& pixels) : view_(view) {
+  ClusterPlacer(const RasterView& view, const BinOptions& options) : view_(view) {
+    const Rect& pixels = options.pixels;
     const auto side = [&](double sign, const glm::dvec3& row, double add, double limit) {
       // sign · (X − limit · W) ≥ 0, W = 1 in an orthographic view.
       if (view.is_orthographic) return Halfspace{sign * row, sign * (add - limit)};
@@ -47,6 +48,7 @@ class ClusterPlacer {
     const glm::dvec3 forward = view.view.pose.forward_ws();
     near_ = {forward, -view.view.projection.near};
     far_ = {-forward, view.view.projection.far};
+    if (options.cut != nullptr) cut_ = {options.cut->normal_ws, options.cut->side(view.eye_ws)};
   }
 
   struct Placed {
@@ -64,9 +66,12 @@ class ClusterPlacer {
     for (const Halfspace& h : needed_) {
       if (over_box(h, centre, extent).high < 0) return {ClusterPlace::outside, 0};
     }
+    const Bounds cut = over_box(cut_, centre, extent);
+    if (cut.high < 0) return {ClusterPlace::outside, 0};
     const double nearest = near.low + view_.view.projection.near;
     // A hair's breadth of distance is left to the rounding of the float transform.
     if (near.low <= 1e-5 * view_.view.projection.near) return {ClusterPlace::crossing, nearest};
+    if (cut.low <= 0) return {ClusterPlace::crossing, nearest};
     for (const Halfspace& h : guard_) {
       if (over_box(h, centre, extent).low <= 0) return {ClusterPlace::crossing, nearest};
     }
@@ -77,6 +82,7 @@ class ClusterPlacer {
   const RasterView& view_;
   std::array<Halfspace, 4> needed_, guard_;
   Halfspace near_, far_;
+  Halfspace cut_ = {glm::dvec3(0), 1};  // without: everything is before it
 };
 
 // The tiles of pixels that are given from the view's origin.
@@ -189,7 +195,7 @@ struct OrderedCluster {
 
 std::vector<OrderedCluster> visible_clusters(const RasterView& view, std::span<const Cluster> clusters,
                                              const BinOptions& options) {
-  const ClusterPlacer placer(view, options.pixels);
+  const ClusterPlacer placer(view, options);
   std::vector<OrderedCluster> visible;
   visible.reserve(clusters.size());
   for (std::uint32_t i = 0; i < clusters.size(); ++i) {

@@ -119,6 +119,16 @@ enum class CullFaces : std::uint8_t {
   front,         ///< front faces of closed meshes: "render back faces into the map" (row 81)
 };
 
+/// What lies behind a plane is not drawn: normal · position < offset. Nor are triangles of which no corner is more than
+/// `tolerance` before it, such as those of a mirror in its own picture.
+struct CuttingPlane {
+  glm::dvec3 normal_ws{0};
+  double offset = 0, tolerance = 0;  ///< metres
+  [[nodiscard]] double side(const glm::dvec3& position_ws) const {
+    return normal_ws.x * position_ws.x + normal_ws.y * position_ws.y + normal_ws.z * position_ws.z - offset;
+  }
+};
+
 struct BinOptions {
   CullFaces cull = CullFaces::none;
   std::uint32_t required_flags = 0;      ///< only clusters with all of these
@@ -128,6 +138,7 @@ struct BinOptions {
   Rect pixels;                           ///< what is needed of the picture
   int sample_reach = 0;                  ///< largest sample offset from the pixel centre, in 1/256 pixel
   InstructionSet instruction_set = InstructionSet::scalar;
+  const CuttingPlane* cut = nullptr;  ///< null: nothing is cut; must stay while triangles are binned
 };
 
 struct BinStatistics {

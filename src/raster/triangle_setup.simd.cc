@@ -181,6 +181,9 @@ WideCorners LoadWideCorners(const SetupTask& task, TriangleId id) {
     corners.local[i] = packed >> (8 * i) & 255U;
     const std::uint32_t v = first_vertex + corners.local[i];
     corners.clip[i] = ClipPosition(view, geometry.x_ws[v], geometry.y_ws[v], geometry.z_ws[v]);
+    if (task.options->cut != nullptr)
+      corners.clip[i].cut_side =
+          task.options->cut->side({geometry.x_ws[v], geometry.y_ws[v], geometry.z_ws[v]});
     corners.right_side[i] = view.is_orthographic ? view.reversed_near - corners.clip[i].near_side : 1.0;
   }
   return corners;
@@ -199,16 +202,25 @@ WideParts PartsOf(const SetupTask& task, const WideCorners& corners, std::span<c
           id, KindOf(task.geometry->clusters[task.cluster], *task.options)};
 }
 
-// Any triangle of a cluster that crosses the near plane or the guard band.
+bool IsBehind(const CuttingPlane* cut, const WideCorners& corners) {
+  if (cut == nullptr) return false;
+  for (const ClipVertex& corner : corners.clip) {
+    if (corner.cut_side > cut->tolerance) return false;
+  }
+  return true;
+}
+
+// Any triangle of a cluster that crosses the near plane, the guard band or a cutting plane.
 void SetUpClipped(const SetupTask& task, const ScreenVertices& screen, std::uint32_t triangle, Batch& batch) {
   const RasterView& view = *task.setup->view;
   const Cluster& cluster = task.geometry->clusters[task.cluster];
   const TriangleId id = task.cluster << kTriangleBits | triangle;
   const WideCorners corners = LoadWideCorners(task, id);
-  const ClippedPolygon polygon = clip_triangle(corners.clip, kGuardBand);
+  if (IsBehind(task.options->cut, corners)) return;
+  const ClippedPolygon polygon = clip_triangle(corners.clip, kGuardBand, task.options->cut != nullptr);
   if (polygon.count < 3) return;
 
-  SnappedVertex snapped[8];
+  SnappedVertex snapped[9];
   for (std::size_t i = 0; i < polygon.count; ++i) {
     if (polygon.corner[i] >= 0) {
       // The neighbours' snapped position, bit for bit.

@@ -9,8 +9,8 @@ namespace laterna {
 namespace {
 
 constexpr std::array<LayerDescription, 13> kLayers = {{
-    {Layer::light, "light", "ambient.R/G/B, light.<name>.R/G/B, environment.R/G/B",
-     "ambient, each light and the environment by itself; their sum is the picture"},
+    {Layer::light, "light", "ambient.R/G/B, light.<name>.R/G/B, environment.R/G/B, reflection.R/G/B",
+     "ambient, each light, the environment and what mirrors show by itself; their sum is the picture"},
     {Layer::visibility, "visibility", "visibility.<name>",
      "fraction of each light that arrives, 0 in shadow"},
     {Layer::uv, "uv", "uv.<name>.u/.v", "slide coordinates of each projector, NaN outside its frame"},
@@ -101,6 +101,12 @@ void add_lights(ChannelList& list, const RenderSettings& settings, const frame::
     }
     if (frame.has_environment) {
       list.add_color("environment.", kRgb,
+                     [environment = frame.lights.size() + 1](const TileResult& t) -> const TileColor& {
+                       return t.radiance[environment];
+                     });
+    }
+    if (frame.has_mirrors) {
+      list.add_color("reflection.", kRgb,
                      [](const TileResult& t) -> const TileColor& { return t.radiance.back(); });
     }
   }

@@ -23,6 +23,7 @@ inline void add_costs(RenderStatistics& sum, const RenderStatistics& one) {
   sum.map_reuse.tiles_drawn += one.map_reuse.tiles_drawn;
   sum.map_reuse.triangles += one.map_reuse.triangles;
   sum.map_reuse.moving_triangles += one.map_reuse.moving_triangles;
+  sum.mirror_pictures += one.mirror_pictures;
   sum.shadow_memory = one.shadow_memory;
   sum.silhouettes = one.silhouettes;
 }

@@ -89,7 +89,8 @@ void PictureAccumulation::sum_lights(int channel) {
       std::find_if(slots_.begin(), slots_.end(), [&](const Slot& s) { return s.name == kRgb[channel]; });
   beauty->picture = slot("ambient" + suffix).picture;
   for (const Slot& part : slots_) {
-    const bool is_part = part.name.starts_with("light.") || part.name.starts_with("environment.");
+    const bool is_part = part.name.starts_with("light.") || part.name.starts_with("environment.") ||
+                         part.name.starts_with("reflection.");
     if (!is_part || !part.name.ends_with(suffix)) continue;
     for (std::size_t k = 0; k < pixels_; ++k) beauty->picture[k] += part.picture[k];
   }

@@ -9,6 +9,7 @@
 #include "base/stopwatch.h"
 #include "frame/surface_lobes.h"
 #include "light/decal_plan.h"
+#include "light/mirror_plan.h"
 #include "render/behind_picture.h"
 #include "render/channels.h"
 #include "render/cost_sum.h"
@@ -123,6 +124,11 @@ void PictureDrawer::let_caches_rest() const {
   paraboloids_.rest(cache_bytes_ - maps_.kept_bytes());
 }
 
+Result<void> PictureDrawer::check_mirrors() const {
+  if (!frame().has_mirrors) return {};
+  return light::find_mirrors(frame()).map([](const std::vector<light::FlatMirror>&) {});
+}
+
 Result<void> PictureDrawer::load_environment(const RendererOptions& options) {
   if (frame::may_show(posed_.scene(), AnimatedProperty::transmission))
     split_sum_ = std::make_unique<const shade::SplitSum>(shade::make_split_sum(pool_));
@@ -222,10 +228,11 @@ void PictureDrawer::add_lights(const raster::RasterView::Ray& ray, const RenderS
 
 // Triangles sorted by tile, then tiles shaded, one band of tile rows after the other.
 void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSettings& settings,
-                               shade::ShaderJob& job, std::uint32_t excluded, const PictureWriter& writer,
-                               RenderStatistics& statistics, ProgressReport& progress) const {
-  const int tiles_x = raster::tiles_across(settings.width);
-  const int tiles_y = raster::tiles_across(settings.height);
+                               shade::ShaderJob& job, const PicturePart& part, RenderStatistics& statistics,
+                               ProgressReport& progress) const {
+  const int left = part.pixels.x_begin / raster::kTileSide, top = part.pixels.y_begin / raster::kTileSide;
+  const int tiles_x = raster::tiles_across(part.pixels.x_end) - left;
+  const int tiles_y = raster::tiles_across(part.pixels.y_end) - top;
   const int bands = band_count(frame(), tiles_y);
   std::vector<std::unique_ptr<shade::TileShader>> shaders(static_cast<std::size_t>(pool_.threads()));
   std::vector<double> encode_ms(shaders.size());
@@ -233,19 +240,20 @@ void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSetti
   raster::BinOptions options;
   options.cull = raster::CullFaces::single_sided;
   options.required_flags = kVisible;
-  options.excluded_flags = excluded;
+  options.excluded_flags = part.excluded_flags;
   options.cut_flags = kAlphaMask | kRelief;
   options.instruction_set = instruction_set_;
+  options.cut = part.cut;
   for (const shade::SampleOffset& offset : shade::sample_offsets(settings.samples, job.jitter)) {
     options.sample_reach = std::max({options.sample_reach, std::abs(offset.x), std::abs(offset.y)});
   }
   for (int band = 0; band < bands && !progress.is_cancelled(); ++band) {
-    const int first_row = tiles_y * band / bands;
-    const int end_row = tiles_y * (band + 1) / bands;
+    const int first_row = top + tiles_y * band / bands;
+    const int end_row = top + tiles_y * (band + 1) / bands;
     Stopwatch watch;
     watch.start();
-    options.pixels = {0, first_row * raster::kTileSide, settings.width,
-                      std::min(end_row * raster::kTileSide, settings.height)};
+    options.pixels = raster::overlap(
+        part.pixels, {0, first_row * raster::kTileSide, settings.width, end_row * raster::kTileSide});
     binned->fill(view, frame().geometry(), options, pool_);
     job.batches = binned->batches();
     statistics.triangles += binned->statistics().triangles;
@@ -257,14 +265,14 @@ void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSetti
       if (progress.is_cancelled()) return;
       auto& shader = shaders[static_cast<std::size_t>(worker)];
       if (shader == nullptr) shader = std::make_unique<shade::TileShader>(job);
-      const int x = static_cast<int>(i) % tiles_x;
+      const int x = left + static_cast<int>(i) % tiles_x;
       const int y = first_row + static_cast<int>(i) / tiles_x;
       const shade::TileResult& tile = shader->shade(x, y);
       Stopwatch encode_watch;
       encode_watch.start();
-      writer.write(x, y, tile);
+      part.write(x, y, tile);
       encode_ms[static_cast<std::size_t>(worker)] += encode_watch.lap_ms();
-      progress.advance();
+      if (!part.is_mirrored) progress.advance();
     });
     statistics.shade_ms += watch.lap_ms();
   }
@@ -281,10 +289,10 @@ bool PictureDrawer::looks_through(const RenderSettings& settings) const {
   return frame().has_transmission && settings.shading == ShadingModel::pbr;
 }
 
-// The same picture without what light goes through: those surfaces then show it, refracted.
+// The same part without what light goes through: those surfaces then show it, refracted.
 Result<shade::EarlierView> PictureDrawer::draw_behind(const raster::RasterView& view,
-                                                      const RenderSettings& settings, shade::ShaderJob& job,
-                                                      RenderStatistics& statistics,
+                                                      const RenderSettings& settings, const PicturePart& part,
+                                                      shade::ShaderJob& job, RenderStatistics& statistics,
                                                       ProgressReport& progress) const {
   RenderSettings plain = settings;
   plain.layers = {};
@@ -292,39 +300,86 @@ Result<shade::EarlierView> PictureDrawer::draw_behind(const raster::RasterView& 
   const Result<PictureWriter> writer =
       PictureWriter::create(plain, picture.target(), frame(), instruction_set_);
   if (!writer) return tl::unexpected(writer.error());
+  PicturePart behind = part;
+  behind.excluded_flags |= kTransmissive;
+  behind.write = [&](int tile_x, int tile_y, const shade::TileResult& tile) {
+    writer->write(tile_x, tile_y, tile);
+  };
   const shade::WantedLayers wanted = std::exchange(job.wanted, wanted_layers(plain));
-  draw_bands(view, plain, job, kTransmissive, *writer, statistics, progress);
+  draw_bands(view, plain, job, behind, statistics, progress);
   job.wanted = wanted;
   return picture.seen_from(view, instruction_set_);
 }
 
-// One picture: everything as it is at one sample of what is averaged.
-RenderStatistics PictureDrawer::draw_picture(const View& from, const RenderSettings& settings,
-                                             SampleIndex sample, const PictureWriter& writer,
-                                             ProgressReport& progress) const {
+// A part of one view's picture, planned anew.
+void PictureDrawer::draw_part(const View& from, const RenderSettings& settings, SampleIndex sample,
+                              const PicturePart& part, shade::MirrorJob mirrors, RenderStatistics& statistics,
+                              ProgressReport& progress) const {
   Stopwatch watch;
   watch.start();
-  RenderStatistics statistics;
-  const MapWorkMeter work(maps_.work());
   const PicturePlan plan = {
       light::make_light_plan(frame(), {settings.shadows, sample, &from}),
       light::make_photograph_plan(frame(), posed_.scene().photograph_settings.visibility),
       light::make_decal_plan(frame(), settings.shadows)};
-  statistics.plan_ms = watch.lap_ms();
+  statistics.plan_ms += watch.lap_ms();
   const raster::RasterView view(from, settings.width, settings.height);
   shade::ShaderJob job = make_job(view, settings, plan, statistics, progress);
   job.jitter = jitter_of(sample);
-  statistics.shadow_ms = watch.lap_ms();
+  job.mirrors = std::move(mirrors);
+  if (part.wants_depth) job.wanted.geometry = true;
+  statistics.shadow_ms += watch.lap_ms();
   std::optional<shade::EarlierView> behind;
   if (looks_through(settings) && !progress.is_cancelled()) {
-    Result<shade::EarlierView> drawn = draw_behind(view, settings, job, statistics, progress);
+    Result<shade::EarlierView> drawn = draw_behind(view, settings, part, job, statistics, progress);
     if (drawn) job.lobes.behind = &behind.emplace(std::move(*drawn));
   }
-  if (!progress.is_cancelled()) draw_bands(view, settings, job, 0, writer, statistics, progress);
+  if (!progress.is_cancelled()) draw_bands(view, settings, job, part, statistics, progress);
+  if (part.is_mirrored) {
+    ++statistics.mirror_pictures;
+    return;
+  }
   for (std::size_t i = 0; i < job.lights.size(); ++i)
     report_drawn(plan.lights.lights[i], job.lights[i].shadow.get(), statistics);
+}
+
+// What its mirrors show, the deepest first.
+Result<shade::MirrorJob> PictureDrawer::draw_mirrors(const View& from, const RenderSettings& settings,
+                                                     SampleIndex sample, RenderStatistics& statistics,
+                                                     ProgressReport& progress) const {
+  const Result<light::MirrorPlan> plan =
+      light::make_mirror_plan(frame(), from, settings.width, settings.height, settings.mirror_depth);
+  if (!plan) return tl::unexpected(plan.error());
+  RenderSettings plain = settings;
+  plain.layers = {};
+  const auto draw_one = [&](const View& view, const PicturePart& part, shade::MirrorJob within) {
+    if (!progress.asks_to_stop())
+      draw_part(view, plain, sample, part, std::move(within), statistics, progress);
+  };
+  return MirrorDrawing(frame(), *plan, settings.width, posed_.time(), draw_one).draw();
+}
+
+// One picture: everything as it is at one sample of what is averaged.
+Result<RenderStatistics> PictureDrawer::draw_picture(const View& from, const RenderSettings& settings,
+                                                     SampleIndex sample, const PictureWriter& writer,
+                                                     ProgressReport& progress) const {
+  Stopwatch watch;
+  watch.start();
+  RenderStatistics statistics;
+  const MapWorkMeter work(maps_.work());
+  shade::MirrorJob mirrors;
+  if (frame().has_mirrors) {
+    Result<shade::MirrorJob> drawn = draw_mirrors(from, settings, sample, statistics, progress);
+    if (!drawn) return tl::unexpected(std::move(drawn.error()));
+    mirrors = std::move(*drawn);
+  }
+  PicturePart whole;
+  whole.pixels = {0, 0, settings.width, settings.height};
+  whole.write = [&](int tile_x, int tile_y, const shade::TileResult& tile) {
+    writer.write(tile_x, tile_y, tile);
+  };
+  draw_part(from, settings, sample, whole, std::move(mirrors), statistics, progress);
   work.report(statistics.map_reuse);
-  statistics.total_ms = statistics.plan_ms + statistics.shadow_ms + watch.lap_ms();
+  statistics.total_ms = watch.lap_ms();
   return statistics;
 }
 
@@ -343,10 +398,12 @@ Result<RenderStatistics> PictureDrawer::draw_mean(const View& from, const Render
     if (!view) return tl::unexpected(view.error());
     const Result<PictureWriter> writer = PictureWriter::create(
         pictures.picture_settings(), pictures.picture_target(), frame(), instruction_set_);
-    const RenderStatistics one = draw_picture(*view, pictures.picture_settings(), sample, *writer, progress);
+    const Result<RenderStatistics> one =
+        draw_picture(*view, pictures.picture_settings(), sample, *writer, progress);
+    if (!one) return one;
     if (progress.is_cancelled()) break;
     pictures.add();
-    add_costs(statistics, one);
+    add_costs(statistics, *one);
     if (settings.noise > 0 && pictures.count() >= kFewestPictures && pictures.noise() <= settings.noise)
       break;
     if (destination.preview && i + 1 < settings.accumulate &&

@@ -15,6 +15,7 @@
 #include "light/photograph_plan.h"
 #include "raster/raster_view.h"
 #include "render/depth_map_cache.h"
+#include "render/mirror_drawing.h"
 #include "render/picture_writer.h"
 #include "render/posed_scene.h"
 #include "render/progress_report.h"
@@ -42,6 +43,9 @@ class PictureDrawer {
 
   /// What shines from all around is made ready; nothing where nothing does. So are tables that materials ask for.
   Result<void> load_environment(const RendererOptions& options);
+
+  /// Error: a mirror that is not flat.
+  [[nodiscard]] Result<void> check_mirrors() const;
 
   /// Before a picture of a mean is drawn: brings the scene to the instant of that picture, and gives the view of it.
   /// Without, all pictures are of one instant.
@@ -88,16 +92,19 @@ class PictureDrawer {
   void add_lights(const raster::RasterView::Ray& ray, const RenderSettings& settings,
                   const light::LightPlan& plan, ShadowCasting& casting, ProgressReport& progress,
                   shade::ShaderJob& job) const;
-  // `excluded`: no clusters with any of these flags.
   void draw_bands(const raster::RasterView& view, const RenderSettings& settings, shade::ShaderJob& job,
-                  std::uint32_t excluded, const PictureWriter& writer, RenderStatistics& statistics,
-                  ProgressReport& progress) const;
+                  const PicturePart& part, RenderStatistics& statistics, ProgressReport& progress) const;
   [[nodiscard]] bool looks_through(const RenderSettings& settings) const;
   Result<shade::EarlierView> draw_behind(const raster::RasterView& view, const RenderSettings& settings,
-                                         shade::ShaderJob& job, RenderStatistics& statistics,
-                                         ProgressReport& progress) const;
-  RenderStatistics draw_picture(const View& from, const RenderSettings& settings, SampleIndex sample,
-                                const PictureWriter& writer, ProgressReport& progress) const;
+                                         const PicturePart& part, shade::ShaderJob& job,
+                                         RenderStatistics& statistics, ProgressReport& progress) const;
+  void draw_part(const View& from, const RenderSettings& settings, SampleIndex sample,
+                 const PicturePart& part, shade::MirrorJob mirrors, RenderStatistics& statistics,
+                 ProgressReport& progress) const;
+  Result<shade::MirrorJob> draw_mirrors(const View& from, const RenderSettings& settings, SampleIndex sample,
+                                        RenderStatistics& statistics, ProgressReport& progress) const;
+  Result<RenderStatistics> draw_picture(const View& from, const RenderSettings& settings, SampleIndex sample,
+                                        const PictureWriter& writer, ProgressReport& progress) const;
   Result<RenderStatistics> draw_mean(const View& from, const RenderSettings& settings,
                                      const Destination& destination, ProgressReport& progress) const;
 

@@ -61,6 +61,8 @@ Result<Renderer> Renderer::create(Scene scene, const RendererOptions& options) {
     auto implementation = std::make_unique<Implementation>(std::move(scene), options);
     if (Result<void> built = implementation->posed.load(); !built)
       return tl::unexpected(std::move(built.error()));
+    if (Result<void> flat = implementation->drawer.check_mirrors(); !flat)
+      return tl::unexpected(std::move(flat.error()));
     if (Result<void> lit = implementation->drawer.load_environment(options); !lit)
       return tl::unexpected(std::move(lit.error()));
     return Renderer(std::move(implementation));

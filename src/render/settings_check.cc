@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/refuse.h"
+#include "laterna/mirrors.h"
 #include "raster/triangle_bins.h"
 
 namespace laterna::render {
@@ -84,6 +85,10 @@ Result<void> check_settings(const RenderSettings& settings, const View& view) {
   }
   if (settings.anisotropy < 1 || settings.anisotropy > 16) {
     return refuse("anisotropy must be from 1 to 16, not " + std::to_string(settings.anisotropy));
+  }
+  if (settings.mirror_depth < 0 || settings.mirror_depth > kMaxMirrorDepth) {
+    return refuse(
+        fmt::format("mirrors may be seen from 0 to {} deep, not {}", kMaxMirrorDepth, settings.mirror_depth));
   }
   if (const std::string fault = find_fault(view.projection); !fault.empty())
     return refuse("the view: " + fault);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "laterna/mirrors.h"
 #include "laterna/relief.h"
 #include "scene/lobe_factors.h"
 #include "scene/scene_check.h"
@@ -30,6 +31,7 @@ class MaterialCheck : SceneCheck {
   void check_layers(const Material& material, const std::string& place);
   void check_lobes(const MaterialLobes& lobes, const std::string& place);
   void check_relief(const Material& material, const std::string& place);
+  void check_mirror(const Mirror& mirror, const std::string& place);
   void check_layer_projector(const SurfaceLayer& layer, const std::string& place);
 };
 
@@ -104,6 +106,7 @@ void MaterialCheck::check_material(const Material& material, const std::string& 
   check_layers(material, place + ".layers");
   if (material.lobes != nullptr) check_lobes(*material.lobes, place + ".lobes.");
   check_relief(material, place + ".relief");
+  if (material.mirror != nullptr) check_mirror(*material.mirror, place + ".mirror");
 }
 
 void MaterialCheck::check_lobes(const MaterialLobes& lobes, const std::string& place) {
@@ -118,6 +121,25 @@ void MaterialCheck::check_lobes(const MaterialLobes& lobes, const std::string& p
   const std::array<const Texture*, kLobeTextures> textures = textures_of(lobes);
   for (std::size_t i = 0; i < kLobeTextures; ++i)
     check_texture(*textures[i], place + std::string(lobe_textures()[i].field));
+}
+
+void MaterialCheck::check_mirror(const Mirror& mirror, const std::string& place) {
+  check_color(place + ".reflectance", mirror.reflectance, 1);
+  if (mirror.ior) check_number(place + ".ior", *mirror.ior, 1, kMaxMirrorIor);
+  check_number(place + ".roughness", mirror.roughness, 0, 1);
+  if (mirror.waves.size() > kMaxWaves)
+    fault(place + ".waves", fmt::format("{} waves are more than {}", mirror.waves.size(), kMaxWaves));
+  for (std::size_t i = 0; i < mirror.waves.size(); ++i) {
+    const Wave& wave = mirror.waves[i];
+    const std::string at = item(place + ".waves", i);
+    for (int k = 0; k < 3; ++k)
+      check_number(at + ".direction_ws", wave.direction_ws[k], -kMaxCoordinate, kMaxCoordinate);
+    if (wave.direction_ws == glm::dvec3(0)) fault(at + ".direction_ws", "is the zero vector");
+    check_number(at + ".length", wave.length, kShortestWave, kMaxCoordinate);
+    check_number(at + ".amplitude", wave.amplitude, 0, kMaxCoordinate);
+    if (wave.speed) check_number(at + ".speed", *wave.speed, -1e6, 1e6);
+    check_number(at + ".phase", wave.phase, -1000, 1000);
+  }
 }
 
 void MaterialCheck::check_layers(const Material& material, const std::string& place) {

@@ -3,6 +3,7 @@
 #include "base/elementary.h"
 #include "laterna/blend.h"
 #include "scene/relief_settings.h"
+#include "scene/rig_mirror.h"
 #include "scene/rig_ranges.h"
 #include "scene/uri.h"
 
@@ -137,7 +138,9 @@ std::optional<SurfaceOverride> read_rig_surface(const JsonDocument& json, const 
   surface.node = object.string("node");
   if (object.has("material") && object.has("node"))
     object.error("node", "give either material or node, not both");
-  if (!object.has("relief")) object.require("layers");
+  if (const JsonValue* mirror = object.object("mirror"))
+    surface.mirror = read_rig_mirror(json, *mirror, faults);
+  if (!object.has("relief") && !object.has("mirror")) object.require("layers");
   if (const JsonValue* layers = object.array("layers")) {
     for (const JsonValue& layer : layers->children)
       surface.layers.push_back(LayerReader(json, layer, folder, pictures, faults).read());

@@ -172,6 +172,7 @@ class SurfaceLayering {
       fault(change_.place, fmt::format("material {} comes to {} layers, more than {}",
                                        in_quotes(material_at(index).name), all.size(), kMaxSurfaceLayers));
     }
+    if (change_.mirror != nullptr) material_at(index).mirror = change_.mirror;
     for (const SurfaceOverride::Layer& read : change_.layers) {
       if (read.layer.texture.is_set())
         check_coordinates(read.layer.texture, read.texture_place, ": a projector's \"slide\" needs none",

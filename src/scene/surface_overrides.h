@@ -1,6 +1,7 @@
 // Layers and reliefs that a rig gives to surfaces of the scene, once all files are there.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,8 @@ struct SurfaceOverride {
   std::vector<Layer> layers;
   std::optional<Relief> relief;  ///< in place of what relief there is
   std::string relief_place;
-  std::string file, place;  ///< where it is written
+  std::shared_ptr<const Mirror> mirror;  ///< in place of what there is; null: none
+  std::string file, place;               ///< where it is written
 };
 
 /// Lays them over what layers there are. A mesh or material that others use too is copied for a node. Faults: no such

@@ -92,6 +92,8 @@ class TileShader::Worker {
         std::any_of(job.frame->surfaces.begin(), job.frame->surfaces.end(),
                     [](const frame::Surface& surface) { return surface.lobes != nullptr; }))
       lobe_shader_ = std::make_unique<LobeShader>(source_, job.lobes, job.instruction_set);
+    if (!job.mirrors.mirror_of_cluster.empty())
+      mirror_shader_ = std::make_unique<MirrorShader>(job.mirrors, *job.view);
     if (std::any_of(job.lights.begin(), job.lights.end(), does_not_add))
       light_blender_ = std::make_unique<LightBlender>(job.instruction_set);
     has_lights_to_leave_out_ =
@@ -149,12 +151,19 @@ class TileShader::Worker {
   // than one surface or sample per pixel. Beauty is then the sum of the planes in the lights' order, which is what it
   // is without them: the picture does not depend on which layers are asked for.
   [[nodiscard]] bool keeps_planes() const {
-    return job_.wanted.lights || offsets_.size() > 1 || !fragments_.is_empty();
+    return job_.wanted.lights || offsets_.size() > 1 || !fragments_.is_empty() || job_.frame->has_mirrors;
+  }
+
+  // Ambient, each light, the environment where there is one; what mirrors show comes after them.
+  [[nodiscard]] std::size_t shaded_planes() const { return job_.lights.size() + (job_.environment ? 2 : 1); }
+  // Without the plane of what mirrors show.
+  [[nodiscard]] std::span<const ColorTarget> shaded(std::span<const ColorTarget> targets) const {
+    return targets.first(std::min(targets.size(), shaded_planes()));
   }
 
   void shade_sample() {
     const bool has_planes = keeps_planes();
-    planes_.resize(has_planes ? job_.lights.size() + (job_.environment ? 2 : 1) : 0);
+    planes_.resize(has_planes ? shaded_planes() + (job_.frame->has_mirrors ? 1 : 0) : 0);
     const std::span<TileColor> planes = has_planes ? std::span(planes_) : std::span(&result_.beauty, 1);
     const glm::vec3 background = job_.background != nullptr ? *job_.background : glm::vec3(0);
     std::vector<ColorTarget> targets;
@@ -165,11 +174,12 @@ class TileShader::Worker {
     }
     if (sample_ == 0) layers_.start_tile();
     if (job_.passes == Passes::multi) {
-      shade_in_passes(targets);
+      shade_in_passes(shaded(targets));
     } else {
-      shade_visible(targets, everything());
+      shade_visible(shaded(targets), everything());
     }
-    if (shows_environment()) show_environment(targets.back());
+    if (shows_environment()) show_environment(shaded(targets).back());
+    if (mirror_shader_ != nullptr) reflect_in_mirrors();
     find_coverage();
     if (!fragments_.is_empty()) blend_fragments();
     accumulate(has_planes);
@@ -417,6 +427,52 @@ class TileShader::Worker {
     }
   }
 
+  // -------------------------------------------------------------------------------------------- mirrors
+
+  // A pixel of the tile, at the sample that is being shaded.
+  [[nodiscard]] MirrorSample mirror_sample(std::uint32_t pixel, float q) const {
+    const std::uint32_t block = pixel / kGroupSize, within = pixel % kGroupSize;
+    const auto x = static_cast<int>(block % raster::kBlocksPerSide * raster::kBlockSide + (within & 3U));
+    const auto y = static_cast<int>(block / raster::kBlocksPerSide * raster::kBlockSide + (within >> 2U));
+    const TileOrigin from = origin();
+    return {tile_x_ * raster::kTileSide + x, tile_y_ * raster::kTileSide + y, from.x + static_cast<float>(x),
+            from.y + static_cast<float>(y), q};
+  }
+
+  static void weigh(TileColor& plane, std::size_t pixel, const glm::vec3& weight) {
+    plane.r[pixel] *= weight.r;
+    plane.g[pixel] *= weight.g;
+    plane.b[pixel] *= weight.b;
+  }
+
+  // What opaque mirrors show, over what their surfaces show themselves.
+  void reflect_in_mirrors() {
+    for (std::uint32_t i = 0; i < kTilePixels; ++i) {
+      const MirrorPicture* picture = ids_[i] == kNoTriangle ? nullptr : mirror_shader_->picture_of(ids_[i]);
+      if (picture == nullptr) continue;
+      const Mirroring seen = mirror_shader_->reflect(*picture, mirror_sample(i, depth_[i]));
+      for (std::size_t plane = 0; plane < shaded_planes(); ++plane)
+        weigh(planes_[plane], i, 1.0F - seen.share);
+      planes_.back().r[i] = seen.share.r * seen.radiance.r;
+      planes_.back().g[i] = seen.share.g * seen.radiance.g;
+      planes_.back().b[i] = seen.share.b * seen.radiance.b;
+    }
+  }
+
+  // The same for a fragment that blends: what it lets through and its own surface share what is not mirrored.
+  void reflect_in_fragment(const raster::Fragment& fragment) {
+    const MirrorPicture* picture = mirror_shader_->picture_of(fragment.id);
+    if (picture == nullptr) return;
+    const Mirroring seen =
+        mirror_shader_->reflect(*picture, mirror_sample(fragment.pixel, fragment.reversed_depth));
+    for (TileColor& plane : planes_) weigh(plane, fragment.pixel, 1.0F - seen.share);
+    planes_.back().r[fragment.pixel] += seen.share.r * seen.radiance.r;
+    planes_.back().g[fragment.pixel] += seen.share.g * seen.radiance.g;
+    planes_.back().b[fragment.pixel] += seen.share.b * seen.radiance.b;
+    const float most = std::max({seen.share.r, seen.share.g, seen.share.b});
+    coverage_[fragment.pixel] = coverage_[fragment.pixel] * (1 - most) + most;
+  }
+
   // Base colours from photographs.
   void paint_photographs(bool is_opaque) {
     const double drawing_ms = photographs_->paint(*samples_, *points_);
@@ -501,7 +557,7 @@ class TileShader::Worker {
       for (std::size_t first = 0; first < run.fragments.size(); first += shadow::kMaxSamples) {
         const std::size_t size = std::min(shadow::kMaxSamples, run.fragments.size() - first);
         fill_from_fragments(origin(), fragments_.list(), run.fragments.subspan(first, size), *samples_);
-        shade_batch(job_.frame->surfaces[run.surface], targets, everything(), false);
+        shade_batch(job_.frame->surfaces[run.surface], shaded(targets), everything(), false);
         scatter(*samples_, points_->alpha.data(), alpha);
       }
     }
@@ -515,6 +571,7 @@ class TileShader::Worker {
         over(planes_[plane].b[pixel], targets[plane].b[i]);
       }
       over(coverage_[pixel], 1);
+      if (mirror_shader_ != nullptr) reflect_in_fragment(fragments_.list()[i]);
     }
   }
 
@@ -617,6 +674,7 @@ class TileShader::Worker {
   std::unique_ptr<LightBlender> light_blender_;  // null: all lights add
   std::unique_ptr<LobeShader> lobe_shader_;      // null: no surface shows lobes
   LobeShader* lobes_ = nullptr;                  // of the batch; null: its surface has none
+  std::unique_ptr<MirrorShader> mirror_shader_;  // null: the picture shows no mirrors
   TileResult result_;
   TileLayers layers_;
 

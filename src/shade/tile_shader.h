@@ -14,6 +14,7 @@
 #include "shade/layer_painter.h"
 #include "shade/light_reach.h"
 #include "shade/lobe_shader.h"
+#include "shade/mirror_shader.h"
 #include "shade/photograph_painter.h"
 #include "shade/shadow_tone.h"
 #include "shade/tile_layers.h"
@@ -50,6 +51,7 @@ struct ShaderJob {
   std::vector<ShaderDecal> decals;  // the frame's
   std::optional<EnvironmentLight> environment;
   LobeJob lobes;
+  MirrorJob mirrors;
   std::vector<BoundLight> physical_lights;  // for lux where the model is not physical; otherwise empty
   ReflectionSettings reflection;
   Interpolation interpolation = Interpolation::perspective;

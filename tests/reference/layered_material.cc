@@ -96,7 +96,7 @@ glm::dvec3 film_reflectance(double film_ior, double thickness, double cosine, co
                       -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
                       0.0556434 * x - 0.2040259 * y + 1.0572252 * z);
   };
-  glm::dvec3 r23, shift;
+  glm::dvec3 r23(0), shift(0);
   for (int c = 0; c < 3; ++c) {
     const double root = std::sqrt(std::min(f0[c], 0.9999)), base = (1 + root) / (1 - root);
     r23[c] = schlick(glm::dvec3(std::pow((base - ior) / (base + ior), 2)), inner).x;

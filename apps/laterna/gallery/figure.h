@@ -39,6 +39,7 @@ Chapter photograph_chapter();
 Chapter lamp_chapter();
 Chapter material_chapter();
 Chapter relief_chapter();
+Chapter mirror_chapter();
 
 /// A picture of a figure, once it is drawn.
 struct Panel {

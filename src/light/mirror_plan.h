@@ -1,0 +1,64 @@
+// What mirrors show in a picture: an ordered tree of views that depend on one another. docs/mirrors.md
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "frame/frame.h"
+#include "laterna/mirrors.h"
+#include "laterna/view.h"
+
+namespace laterna::light {
+
+/// The surfaces of an object that have one material with a Mirror, and the plane that they lie in.
+struct FlatMirror {
+  const Mirror* mirror = nullptr;
+  glm::dvec3 normal_ws{0};  ///< unit, of the front; the plane: normal · position = offset
+  double offset = 0;        ///< metres
+  double deviation = 0;     ///< metres that corners lie off the plane, or a little more than rounding
+  bool double_sided = false;
+  std::uint32_t surface = 0, object = 0;
+  std::vector<std::uint32_t> clusters;
+};
+
+/// In the frame's order. Error: one that is not flat (kMirrorFlatness), at the place where its Mirror is written.
+Result<std::vector<FlatMirror>> find_mirrors(const frame::Frame& frame);
+
+/// The view as the mirror has it: what it sees at a pixel, `view` sees by the mirror at the pixel as far from the opposite
+/// side of the picture.
+View mirrored(const View& view, const glm::dvec3& normal_ws, double offset);
+
+/// Pixels of a picture; ends excluded.
+struct PixelBox {
+  int x_begin = 0, y_begin = 0, x_end = 0, y_end = 0;
+  [[nodiscard]] bool is_empty() const { return x_begin >= x_end || y_begin >= y_end; }
+};
+/// The same pixels of the mirrored picture, and back.
+inline PixelBox mirrored(const PixelBox& box, int width) {
+  return {width - box.x_end, box.y_begin, width - box.x_begin, box.y_end};
+}
+
+/// What one mirror shows to a view.
+struct MirrorView {
+  int mirror = -1;  ///< index into MirrorPlan::mirrors
+  int parent = -1;  ///< the view that looks into it: index into MirrorPlan::views, −1: the picture's own
+  int depth = 1;    ///< mirrors on the way
+  View view;        ///< of the mirrored picture
+  PixelBox box;     ///< of the mirrored picture, what its parent needs
+  glm::dvec3 normal_ws{0};  ///< toward the parent's eye; what lies behind is not seen
+  double offset = 0;
+  double tolerance = 0;  ///< metres: what lies no farther before the plane is the mirror itself
+};
+
+struct MirrorPlan {
+  std::vector<FlatMirror> mirrors;
+  /// Parents before what they see. To be drawn from the last to the first.
+  std::vector<MirrorView> views;
+};
+
+/// What a picture of width × height pixels needs: of mirrors that face the view and lie in it, whether or not something stands
+/// before them. depth: 0 … kMaxMirrorDepth. Error: as find_mirrors().
+Result<MirrorPlan> make_mirror_plan(const frame::Frame& frame, const View& view, int width, int height,
+                                    int depth);
+
+}  // namespace laterna::light

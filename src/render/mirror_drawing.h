@@ -1,0 +1,47 @@
+// Pictures of what mirrors show, the deepest first, each drawn from those that it depends on.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "light/mirror_plan.h"
+#include "raster/triangle_bins.h"
+#include "shade/mirror_shader.h"
+
+namespace laterna::render {
+
+/// A part of a picture, and where its tiles go.
+struct PicturePart {
+  raster::Rect pixels;
+  const raster::CuttingPlane* cut = nullptr;  ///< null: nothing is cut
+  /// Called from several threads at once, with tiles that `pixels` touch.
+  std::function<void(int tile_x, int tile_y, const shade::TileResult&)> write;
+  bool wants_depth = false;  ///< WantedLayers::geometry; the picture's other layers are its own affair
+  bool is_mirrored = false;
+  std::uint32_t excluded_flags = 0;  ///< no clusters with any of these
+};
+
+class MirrorDrawing {
+ public:
+  /// Draws a part of a view's picture with those mirrors in it.
+  using DrawPart = std::function<void(const View& view, const PicturePart& part, shade::MirrorJob mirrors)>;
+
+  /// All must outlive it. `width`: of the picture, in pixels; `seconds`: scene time, which moves waves.
+  MirrorDrawing(const frame::Frame& frame, const light::MirrorPlan& plan, int width, double seconds,
+                DrawPart draw_part);
+
+  /// The mirrors in the picture's own view.
+  [[nodiscard]] shade::MirrorJob draw() const { return draw_seen_by(-1); }
+
+ private:
+  [[nodiscard]] shade::MirrorJob draw_seen_by(int parent) const;
+  [[nodiscard]] std::unique_ptr<const shade::MirrorPicture> draw_picture(int index) const;
+
+  const light::MirrorPlan& plan_;
+  int width_;
+  double seconds_;
+  DrawPart draw_part_;
+  std::vector<int> mirror_of_cluster_;
+};
+
+}  // namespace laterna::render
