@@ -75,7 +75,7 @@ TEST(InvalidMirrors, MadeInCodeAndTooDeep) {
   reference::add_object(scene, "pool", reference::floor(1));
   Mirror mirror;
   mirror.roughness = 2;
-  mirror.waves.push_back({{0, 0, 0}, 0, -1});
+  mirror.waves.push_back({{0, 0, 0}, 0, -1, {}, 0});
   scene.materials[0].mirror = std::make_shared<const Mirror>(mirror);
   EXPECT_EQ(validate(scene).size(), 4U);
   scene.materials[0].mirror = std::make_shared<const Mirror>();
