@@ -40,7 +40,7 @@ double slope_of(const Wave& wave, double along, double seconds, double footprint
 
 // Rays of a cone, as places of the unit disc that they fill evenly: Vogel 1979, A better way to construct the sunflower head.
 constexpr int kRays = 48;
-constexpr float kRaysAcross = 4;  // a level's pixels are as large as what lies between them
+constexpr float kRaysAcross = 7;  // a level's pixels are as large as what lies between them
 
 const std::array<glm::vec2, kRays>& rays_of_cone() {
   static const std::array<glm::vec2, kRays> rays = [] {
@@ -123,20 +123,36 @@ glm::vec3 MirrorShader::blurred(const MirrorPicture& picture, const MirrorSample
   };
   const float widest = spread * pixels_per_tangent *
                        (view_.is_orthographic ? std::max(static_cast<float>(p.far) - mirror_at, 0.0F) : 1.0F);
+  // Between pixels of different depth there is nothing: the nearest pixel is what is there.
+  const auto look = [&](const glm::vec2& ray, float radius) {
+    return picture.at(static_cast<int>(std::floor(x + ray.x * radius)),
+                      static_cast<int>(std::floor(y + ray.y * radius)));
+  };
+  // Where the ray is as deep as what was seen, is that still there?
+  const auto meets = [&](const glm::vec2& ray, float own) {
+    return std::abs(radius_of(look(ray, own)) - own) <= 0.1F * own + 0.01F;
+  };
   glm::vec3 sum(0);
   for (const glm::vec2& ray : rays_of_cone()) {
-    glm::vec4 tap(0);
+    glm::vec4 seen = look(ray, 0);  // where the ray was last in the open
     for (int step = 1; step <= kSteps; ++step) {
       const float share = static_cast<float>(step) / kSteps, radius = widest * share * share;
-      const glm::vec2 at = glm::vec2(x, y) + ray * radius;
-      tap = picture.interpolated(at.x, at.y, picture.level_of(radius / kRaysAcross));
-      const float own = radius_of(tap);
-      if (own > radius) continue;
-      const glm::vec2 met = glm::vec2(x, y) + ray * own;
-      tap = picture.interpolated(met.x, met.y, picture.level_of(own / kRaysAcross));
+      const glm::vec4 tap = look(ray, radius);
+      const float before = radius_of(seen), own = radius_of(tap);
+      const bool meets_before = before <= radius && meets(ray, before);
+      if (!meets_before && own > radius) {
+        seen = tap;
+        continue;
+      }
+      // Behind what lies here, without having met it: where the picture does not look.
+      if (!meets_before && !meets(ray, own)) continue;
+      const float met = meets_before ? before : own;
+      // Its colour from about what lies between the rays.
+      const int level = picture.level_of(met / kRaysAcross);
+      seen = level == 0 ? look(ray, met) : picture.interpolated(x + ray.x * met, y + ray.y * met, level);
       break;
     }
-    sum += glm::vec3(tap);
+    sum += glm::vec3(seen);
   }
   return sum / static_cast<float>(kRays);
 }
