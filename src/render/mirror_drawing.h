@@ -18,6 +18,8 @@ struct PicturePart {
   std::function<void(int tile_x, int tile_y, const shade::TileResult&)> write;
   bool wants_depth = false;  ///< WantedLayers::geometry; the picture's other layers are its own affair
   bool is_mirrored = false;
+  bool is_turned =
+      false;  ///< its left is the right of the picture that it is drawn for: by an odd number of mirrors
 };
 
 class MirrorDrawing {

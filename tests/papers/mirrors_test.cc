@@ -214,6 +214,27 @@ TEST(Mirrors, WaterReflectsAsFresnelSays) {
   }
 }
 
+// Where a black wall meets a mirror nothing of the white behind both shines through, in means of many pictures too: mirrored
+// pictures sample the pixels where the picture does.
+TEST(Mirrors, LeaveNoGapAtContacts) {
+  Scene scene = dark();
+  Mesher mirror, black;
+  mirror.quad({-1, -3, 3}, {-1, -3, -6}, {-1, 3, -6}, {-1, 3, 3});
+  black.quad({-1, -3, -3}, {9, -3, -3}, {9, 3, -3}, {-1, 3, -3});
+  add_object(scene, "mirror", mirror.primitive);
+  scene.materials.back().mirror = std::make_shared<const Mirror>();
+  add_glowing(scene, "wall", black.primitive, glm::vec3(0));
+  scene.background = glm::vec3(1);
+  RenderSettings settings = test_settings(101, 40);
+  settings.accumulate = 16;
+  const View view = look({0.3, 0, 0}, {-0.9, 0, -3}, 30, 2.5);
+  const LayeredImage image = render(make_renderer(std::move(scene)), view, settings);
+  const int contact = static_cast<int>(pixel_of(view, {-1, 0, -3}, 101, 40).x);
+  for (int y = 10; y < 30; ++y) {
+    for (int x = contact - 5; x < contact + 5; ++x) EXPECT_EQ(at(image, "R", x, y), 0) << x << ", " << y;
+  }
+}
+
 Scene pool(const Mirror& water, bool is_clear = false) {
   Scene scene = slide_show();
   add_object(scene, "water", floor(3, -1.5F), {0.1F, 0.2F, 0.2F});
