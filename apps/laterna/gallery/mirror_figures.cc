@@ -28,7 +28,7 @@ Shot show() {
   projector.attenuation = Attenuation::none;
   projector.intensity = 1.1;
   set_mood(scene, 0.12F);
-  shot.settings.samples = 4;
+  shot.settings.accumulate = 16;
   return shot;
 }
 
