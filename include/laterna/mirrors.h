@@ -11,11 +11,11 @@ namespace laterna {
 /// One train of waves on water: its surface rises by amplitude · sin(2π (d · x / length − speed t / length) + phase), d the
 /// unit direction within the surface, x the place in world space and t the scene time.
 struct Wave {
-  glm::dvec3 direction_ws{1, 0, 0};  ///< not zero; what of it lies within the surface counts
-  double length = 1;                 ///< metres from crest to crest, kShortestWave …
-  double amplitude = 0.01;           ///< metres, not negative
-  std::optional<double> speed;       ///< metres per second; unset: √(g length / 2π), of deep water
-  double phase = 0;                  ///< radians
+  glm::dvec3 direction_ws{1, 0, 0};            ///< not zero; what of it lies within the surface counts
+  double length = 1;                           ///< metres from crest to crest, kShortestWave …
+  double amplitude = 0.01;                     ///< metres, not negative
+  std::optional<double> speed = std::nullopt;  ///< metres per second; unset: √(g length / 2π), of deep water
+  double phase = 0;                            ///< radians
 };
 
 /// What makes a material a mirror. Every surface of it must be flat (kMirrorFlatness). The share F of what it mirrors is laid

@@ -43,6 +43,7 @@ std::unique_ptr<const shade::MirrorPicture> MirrorDrawing::draw_picture(int inde
   };
   part.wants_depth = picture->needs_depth();
   part.is_mirrored = true;
+  part.is_turned = seen.depth % 2 == 1;
   draw_part_(seen.view, part, std::move(within));
   picture->finish();
   return picture;

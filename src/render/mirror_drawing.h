@@ -19,6 +19,8 @@ struct PicturePart {
   bool wants_depth = false;  ///< WantedLayers::geometry; the picture's other layers are its own affair
   bool is_mirrored = false;
   std::uint32_t excluded_flags = 0;  ///< no clusters with any of these
+  bool is_turned =
+      false;  ///< its left is the right of the picture that it is drawn for: by an odd number of mirrors
 };
 
 class MirrorDrawing {

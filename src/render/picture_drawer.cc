@@ -325,6 +325,7 @@ void PictureDrawer::draw_part(const View& from, const RenderSettings& settings, 
   const raster::RasterView view(from, settings.width, settings.height);
   shade::ShaderJob job = make_job(view, settings, plan, statistics, progress);
   job.jitter = jitter_of(sample);
+  if (part.is_turned) job.jitter.x = std::min(-job.jitter.x, 127);
   job.mirrors = std::move(mirrors);
   if (part.wants_depth) job.wanted.geometry = true;
   statistics.shadow_ms += watch.lap_ms();

@@ -66,6 +66,12 @@ const glm::vec4& MirrorPicture::at(int x, int y) const {
   return levels_[0].at(x - box_.x_begin, y - box_.y_begin);
 }
 
+int MirrorPicture::level_of(float side) const {
+  int level = 0;
+  while (level + 1 < static_cast<int>(levels_.size()) && static_cast<float>(2 << level) <= side) ++level;
+  return level;
+}
+
 glm::vec4 MirrorPicture::interpolated(float x, float y, int level) const {
   const Level& of = levels_[static_cast<std::size_t>(level)];
   const auto side = static_cast<float>(1 << level);

@@ -31,7 +31,8 @@ class MirrorPicture {
   [[nodiscard]] const glm::vec4& at(int x, int y) const;
   /// The same between pixels' centres, x and y from the picture's corner, of means over 2^level × 2^level pixels.
   [[nodiscard]] glm::vec4 interpolated(float x, float y, int level) const;
-  [[nodiscard]] int levels() const { return static_cast<int>(levels_.size()); }
+  /// The level whose pixels are at most `side` of the finest wide.
+  [[nodiscard]] int level_of(float side) const;
 
  private:
   struct Level {

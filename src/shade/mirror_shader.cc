@@ -1,6 +1,7 @@
 #include "shade/mirror_shader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -35,6 +36,23 @@ double slope_of(const Wave& wave, double along, double seconds, double footprint
   const double cycles = (along - speed * seconds) / wave.length;
   return shown * wave.amplitude * (2 * kPi / wave.length) *
          cosine(2 * kPi * (cycles - std::floor(cycles)) + wave.phase);
+}
+
+// Rays of a cone, as places of the unit disc that they fill evenly: Vogel 1979, A better way to construct the sunflower head.
+constexpr int kRays = 48;
+constexpr float kRaysAcross = 7;  // a level's pixels are as large as what lies between them
+
+const std::array<glm::vec2, kRays>& rays_of_cone() {
+  static const std::array<glm::vec2, kRays> rays = [] {
+    constexpr double kGoldenAngle = 2.39996322972865332;
+    std::array<glm::vec2, kRays> made;
+    for (int i = 0; i < kRays; ++i) {
+      const double radius = std::sqrt((i + 0.5) / kRays), angle = kGoldenAngle * i;
+      made[static_cast<std::size_t>(i)] = glm::vec2(radius * cosine(angle), radius * sine(angle));
+    }
+    return made;
+  }();
+  return rays;
 }
 
 }  // namespace
@@ -85,11 +103,12 @@ glm::vec2 MirrorShader::displaced(const MirrorPicture& picture, const MirrorSamp
   return place + glm::dvec2(view_.origin_x, view_.origin_y);
 }
 
-// The mean over a disc that is the wider the farther behind the mirror the image lies, so that contacts stay sharp. What lies
-// nearer to the mirror than the sample's own image is the sharper, and counts no farther than its own disc reaches.
+// The mean over rays of a cone about the mirrored one. Behind the mirror by t they meet the picture on a circle whose radius
+// grows with t, and each is followed outward to the first place whose depth belongs to that radius or a smaller one. So contacts
+// stay sharp, and what lies nearer to the mirror than what it stands before is the sharper.
 glm::vec3 MirrorShader::blurred(const MirrorPicture& picture, const MirrorSample& sample, float x,
                                 float y) const {
-  constexpr int kTaps = 64;
+  constexpr int kSteps = 7;
   // A roughness r spreads mirrored rays about twice as far as facets are tilted, whose slopes are about r² (GGX).
   const float spread = 2 * picture.mirror().roughness * picture.mirror().roughness;
   const Projection& p = view_.view.projection;
@@ -102,25 +121,40 @@ glm::vec3 MirrorShader::blurred(const MirrorPicture& picture, const MirrorSample
     }
     return spread * pixels_per_tangent * std::clamp(1 - tap.w * mirror_at, 0.0F, 1.0F);
   };
-  const float reach = radius_of(picture.interpolated(x, y, 0));
-  if (reach < 0.5F) return picture.interpolated(x, y, 0);
-  // Taps lie about reach / 4.5 apart.
-  int level = 0;
-  while (level + 1 < picture.levels() && static_cast<float>(2 << level) < reach / 4) ++level;
-  constexpr double kGoldenAngle = 2.39996322972865332;  // Vogel 1979: a spiral that fills a disc evenly
+  const float widest = spread * pixels_per_tangent *
+                       (view_.is_orthographic ? std::max(static_cast<float>(p.far) - mirror_at, 0.0F) : 1.0F);
+  // Between pixels of different depth there is nothing: the nearest pixel is what is there.
+  const auto look = [&](const glm::vec2& ray, float radius) {
+    return picture.at(static_cast<int>(std::floor(x + ray.x * radius)),
+                      static_cast<int>(std::floor(y + ray.y * radius)));
+  };
+  // Where the ray is as deep as what was seen, is that still there?
+  const auto meets = [&](const glm::vec2& ray, float own) {
+    return std::abs(radius_of(look(ray, own)) - own) <= 0.1F * own + 0.01F;
+  };
   glm::vec3 sum(0);
-  float weights = 0;
-  for (int i = 0; i < kTaps; ++i) {
-    const float at = reach * std::sqrt((static_cast<float>(i) + 0.5F) / kTaps);
-    const double angle = kGoldenAngle * i;
-    const glm::vec4 tap = picture.interpolated(x + at * static_cast<float>(cosine(angle)),
-                                               y + at * static_cast<float>(sine(angle)), level);
-    const float radius = std::max(radius_of(tap), 0.5F);
-    const float weight = std::clamp(radius - at + 0.5F, 0.0F, 1.0F);
-    sum += weight * glm::vec3(tap);
-    weights += weight;
+  for (const glm::vec2& ray : rays_of_cone()) {
+    glm::vec4 seen = look(ray, 0);  // where the ray was last in the open
+    for (int step = 1; step <= kSteps; ++step) {
+      const float share = static_cast<float>(step) / kSteps, radius = widest * share * share;
+      const glm::vec4 tap = look(ray, radius);
+      const float before = radius_of(seen), own = radius_of(tap);
+      const bool meets_before = before <= radius && meets(ray, before);
+      if (!meets_before && own > radius) {
+        seen = tap;
+        continue;
+      }
+      // Behind what lies here, without having met it: where the picture does not look.
+      if (!meets_before && !meets(ray, own)) continue;
+      const float met = meets_before ? before : own;
+      // Its colour from about what lies between the rays.
+      const int level = picture.level_of(met / kRaysAcross);
+      seen = level == 0 ? look(ray, met) : picture.interpolated(x + ray.x * met, y + ray.y * met, level);
+      break;
+    }
+    sum += glm::vec3(seen);
   }
-  return weights > 0 ? sum / weights : glm::vec3(picture.interpolated(x, y, 0));
+  return sum / static_cast<float>(kRays);
 }
 
 Mirroring MirrorShader::reflect(const MirrorPicture& picture, const MirrorSample& sample) const {

@@ -28,7 +28,7 @@ Shot show() {
   projector.attenuation = Attenuation::none;
   projector.intensity = 1.1;
   set_mood(scene, 0.12F);
-  shot.settings.samples = 4;
+  shot.settings.accumulate = 16;
   return shot;
 }
 
@@ -92,7 +92,9 @@ void draw_water(Sitting& sitting) {
   shot.camera = {{0.9, 0.8, 2.4}, {-0.2, 0.7, -2.4}};
   shot.yfov = Angle::degrees(42);
   sitting.picture("Still water.", shot);
-  water.waves = {{{1, 0, 0.4}, 0.9, 0.006}, {{-0.3, 0, 1}, 0.53, 0.005}, {{0.5, 0, -1}, 0.31, 0.002}};
+  water.waves = {{{1, 0, 0.4}, 0.9, 0.006, {}, 0},
+                 {{-0.3, 0, 1}, 0.53, 0.005, {}, 0},
+                 {{0.5, 0, -1}, 0.31, 0.002, {}, 0}};
   scene.materials.back().mirror = std::make_shared<const Mirror>(water);
   sitting.picture("Three trains of waves.", shot);
 }
