@@ -1,8 +1,8 @@
-# laterna_room(NAME LINK target...): one room of src/ as an object library.
+# laterna_room(NAME LINK target... PRECOMPILE header...): one room of src/ as an object library.
 # Kernels (*.simd.cc) are compiled once per instruction set by Highway.
 set(LATERNA_ROOMS "")
 macro(laterna_room name)
-  cmake_parse_arguments(ROOM "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "LINK;PRECOMPILE" ${ARGN})
   file(GLOB room_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cc)
   if(room_sources)
     add_library(room_${name} OBJECT ${room_sources})
@@ -14,6 +14,15 @@ macro(laterna_room name)
     list(FILTER room_kernels INCLUDE REGEX "\\.simd\\.cc$")
     if(NOT LATERNA_SANITIZE)
       set_source_files_properties(${room_kernels} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>")
+    endif()
+    # What nearly every file of a large room includes is read once; not where ccache, which remembers objects, would then
+    # remember none. Kernels go their own way: Highway wants to be first.
+    set(room_plain ${room_sources})
+    list(FILTER room_plain EXCLUDE REGEX "\\.simd\\.cc$")
+    list(LENGTH room_plain room_size)
+    if(ROOM_PRECOMPILE AND room_size GREATER 20 AND NOT CCACHE AND NOT LATERNA_SANITIZE)
+      target_precompile_headers(room_${name} PRIVATE ${ROOM_PRECOMPILE})
+      set_source_files_properties(${room_kernels} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
     endif()
     list(APPEND LATERNA_ROOMS ${name})
   else()

@@ -148,14 +148,12 @@ class Baker {
   }
 
  private:
-  // Of the scene as it is now, without the light that earlier bakes found.
   void prepare() {
     if (settings_.lights.empty()) warn_of_lights_left(scene_);
     if (!scene_.clips.empty()) {
       scene_.clips.clear();
       scene_.warnings.push_back({{}, "clips", "light maps hold one instant: animation is left out"});
     }
-    for (Material& material : scene_.materials) material.light_map = {};
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
       was_enabled_.push_back(scene_.lights[i].enabled);
       scene_.lights[i].enabled = is_baked_[i];
@@ -356,6 +354,14 @@ Result<BakedScene> bake_light(Scene scene, const BakeSettings& settings, const P
     return tl::unexpected(std::move(checked.error()));
   if (std::vector<Diagnostic> faults = validate(scene); !faults.empty())
     return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+  // The lights that a light map holds are no longer in the scene: a new one in its place would lose them.
+  for (const Material& material : scene.materials) {
+    if (!material.light_map.front.is_set()) continue;
+    return refuse(
+        fmt::format("material \"{}\" has a light map already: bake the scene that it was baked from, with "
+                    "all lights at once",
+                    material.name));
+  }
   return without_exceptions(
       Error(Failure::bad_input, Diagnostic{{}, {}, "not enough memory to bake the scene"}),
       [&]() -> Result<BakedScene> {

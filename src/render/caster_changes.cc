@@ -103,11 +103,18 @@ void CasterChanges::note_materials(const std::vector<bool>& materials, frame::Fr
     return frame.clusters[a].object == frame.clusters[b].object &&
            frame.clusters[a].material == frame.clusters[b].material;
   };
+  // Of one object several primitives may have one material: what moves is noted part by part, here as where poses change.
+  const auto parts_meet_at = [&](std::size_t cluster) {
+    const auto next =
+        std::ranges::lower_bound(frame.moving_parts, cluster, {}, &frame::PlacedPart::first_cluster);
+    if (next != frame.moving_parts.end() && next->first_cluster == cluster) return true;
+    return next != frame.moving_parts.begin() && end_of(*std::prev(next)) == cluster;
+  };
   std::size_t end = 0;
   for (std::size_t first = 0; first < frame.clusters.size(); first = end) {
     end = first + 1;
     if (!is_opaque_caster(frame.clusters[first]) || !materials[frame.clusters[first].material]) continue;
-    while (end < frame.clusters.size() && same_primitive(first, end)) ++end;
+    while (end < frame.clusters.size() && same_primitive(first, end) && !parts_meet_at(end)) ++end;
     const auto begin = static_cast<std::uint32_t>(first);
     const auto stop = static_cast<std::uint32_t>(end);
     note_change(begin, stop, bounds_of(frame, begin, stop), frame);

@@ -301,6 +301,8 @@ Result<shade::EarlierView> PictureDrawer::draw_behind(const raster::RasterView& 
       PictureWriter::create(plain, picture.target(), frame(), instruction_set_);
   if (!writer) return tl::unexpected(writer.error());
   PicturePart behind = part;
+  // Refraction and blur reach beyond a mirror's part.
+  behind.pixels = {0, 0, settings.width, settings.height};
   behind.excluded_flags |= kTransmissive;
   behind.write = [&](int tile_x, int tile_y, const shade::TileResult& tile) {
     writer->write(tile_x, tile_y, tile);
@@ -312,9 +314,9 @@ Result<shade::EarlierView> PictureDrawer::draw_behind(const raster::RasterView& 
 }
 
 // A part of one view's picture, planned anew.
-void PictureDrawer::draw_part(const View& from, const RenderSettings& settings, SampleIndex sample,
-                              const PicturePart& part, shade::MirrorJob mirrors, RenderStatistics& statistics,
-                              ProgressReport& progress) const {
+Result<void> PictureDrawer::draw_part(const View& from, const RenderSettings& settings, SampleIndex sample,
+                                      const PicturePart& part, shade::MirrorJob mirrors,
+                                      RenderStatistics& statistics, ProgressReport& progress) const {
   Stopwatch watch;
   watch.start();
   const PicturePlan plan = {
@@ -332,15 +334,17 @@ void PictureDrawer::draw_part(const View& from, const RenderSettings& settings, 
   std::optional<shade::EarlierView> behind;
   if (looks_through(settings) && !progress.is_cancelled()) {
     Result<shade::EarlierView> drawn = draw_behind(view, settings, part, job, statistics, progress);
-    if (drawn) job.lobes.behind = &behind.emplace(std::move(*drawn));
+    if (!drawn) return tl::unexpected(std::move(drawn.error()));
+    job.lobes.behind = &behind.emplace(std::move(*drawn));
   }
   if (!progress.is_cancelled()) draw_bands(view, settings, job, part, statistics, progress);
   if (part.is_mirrored) {
     ++statistics.mirror_pictures;
-    return;
+    return {};
   }
   for (std::size_t i = 0; i < job.lights.size(); ++i)
     report_drawn(plan.lights.lights[i], job.lights[i].shadow.get(), statistics);
+  return {};
 }
 
 // What its mirrors show, the deepest first.
@@ -352,11 +356,14 @@ Result<shade::MirrorJob> PictureDrawer::draw_mirrors(const View& from, const Ren
   if (!plan) return tl::unexpected(plan.error());
   RenderSettings plain = settings;
   plain.layers = {};
+  Result<void> outcome;
   const auto draw_one = [&](const View& view, const PicturePart& part, shade::MirrorJob within) {
-    if (!progress.asks_to_stop())
-      draw_part(view, plain, sample, part, std::move(within), statistics, progress);
+    if (outcome && !progress.asks_to_stop())
+      outcome = draw_part(view, plain, sample, part, std::move(within), statistics, progress);
   };
-  return MirrorDrawing(frame(), *plan, settings.width, posed_.time(), draw_one).draw();
+  shade::MirrorJob mirrors = MirrorDrawing(frame(), *plan, settings.width, posed_.time(), draw_one).draw();
+  if (!outcome) return tl::unexpected(std::move(outcome.error()));
+  return mirrors;
 }
 
 // One picture: everything as it is at one sample of what is averaged.
@@ -378,7 +385,9 @@ Result<RenderStatistics> PictureDrawer::draw_picture(const View& from, const Ren
   whole.write = [&](int tile_x, int tile_y, const shade::TileResult& tile) {
     writer.write(tile_x, tile_y, tile);
   };
-  draw_part(from, settings, sample, whole, std::move(mirrors), statistics, progress);
+  const Result<void> drawn =
+      draw_part(from, settings, sample, whole, std::move(mirrors), statistics, progress);
+  if (!drawn) return tl::unexpected(drawn.error());
   work.report(statistics.map_reuse);
   statistics.total_ms = watch.lap_ms();
   return statistics;

@@ -98,9 +98,9 @@ class PictureDrawer {
   Result<shade::EarlierView> draw_behind(const raster::RasterView& view, const RenderSettings& settings,
                                          const PicturePart& part, shade::ShaderJob& job,
                                          RenderStatistics& statistics, ProgressReport& progress) const;
-  void draw_part(const View& from, const RenderSettings& settings, SampleIndex sample,
-                 const PicturePart& part, shade::MirrorJob mirrors, RenderStatistics& statistics,
-                 ProgressReport& progress) const;
+  Result<void> draw_part(const View& from, const RenderSettings& settings, SampleIndex sample,
+                         const PicturePart& part, shade::MirrorJob mirrors, RenderStatistics& statistics,
+                         ProgressReport& progress) const;
   Result<shade::MirrorJob> draw_mirrors(const View& from, const RenderSettings& settings, SampleIndex sample,
                                         RenderStatistics& statistics, ProgressReport& progress) const;
   Result<RenderStatistics> draw_picture(const View& from, const RenderSettings& settings, SampleIndex sample,

@@ -60,7 +60,10 @@ class SurfaceReader {
     const Vector3 c = Interpolate(
         corners_.At3(frame_.color_r.data(), frame_.color_g.data(), frame_.color_b.data(), stream.first),
         hit_.weights);
-    return Product(color, {stream.OrElse(c.x, one), stream.OrElse(c.y, one), stream.OrElse(c.z, one)});
+    // On a relief the point may lie beyond its triangle, where colours go on below nothing.
+    const auto held = [&](FloatVector value)
+                          HWY_ATTR { return hn::Max(stream.OrElse(value, one), Splat(0.0F)); };
+    return Product(color, {held(c.x), held(c.y), held(c.z)});
   }
 
   // Interpolated normal, or the triangle's where there is none; turned to the viewer on double-sided surfaces.

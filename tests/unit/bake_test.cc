@@ -263,6 +263,15 @@ TEST(Bake, GoesOnWhereItWasStopped) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+// The lights that the first maps hold are gone from the scene.
+TEST(Bake, IsNotDoneTwice) {
+  const Result<BakedScene> once = bake_light(lit_shapes(), {});
+  ASSERT_TRUE(once);
+  const Result<BakedScene> twice = bake_light(once->scene, {});
+  ASSERT_FALSE(twice);
+  EXPECT_NE(to_string(twice.error()).find("has a light map already"), std::string::npos);
+}
+
 TEST(Bake, RefusesWhatMakesNoSense) {
   const auto message = [](const Scene& scene, const BakeSettings& settings) {
     const Result<BakedScene> baked = bake_light(scene, settings);

@@ -215,6 +215,33 @@ TEST(CasterLayers, CutOutsThatChangeAreDrawnAgain) {
   }
 }
 
+// Two primitives of one material: its cut-outs come to rest long before what wears it does.
+TEST(CasterLayers, WhatMovesStillIsNotLeftStandingWhenItsCutOutsRest) {
+  Hall h = hall();
+  h.scene.clips.clear();
+  const int fence = reference::add_object(h.scene, "fence", reference::wall(1.5F, 1.5F, 0.4F));
+  Mesh& mesh = h.scene.meshes[static_cast<std::size_t>(h.scene.nodes[static_cast<std::size_t>(fence)].mesh)];
+  mesh.primitives.push_back(mesh.primitives[0]);
+  for (glm::vec3& p : mesh.primitives[1].positions) p.x += 1;
+  Material& material = h.scene.materials[static_cast<std::size_t>(mesh.primitives[0].material)];
+  material.alpha_mode = AlphaMode::mask;
+  material.double_sided = true;
+  material.base_color[3] = 0.6F;
+  move(h.scene, fence, {0, 4}, {-3, 0, 0, 3, 0, 0});
+  Clip& clip = h.scene.clips.emplace_back();
+  clip.at_end = AtEnd::hold;
+  clip.keys.push_back({KeyInterpolation::linear, {0, 0.2}, {0.1, 0.5}});
+  ClipChannel channel;
+  channel.property = AnimatedProperty::alpha_cutoff;
+  channel.target = static_cast<int>(&material - h.scene.materials.data());
+  channel.keys = 0;
+  clip.channels.push_back(channel);
+  reference::add_light(h.scene, lamp("lamp", LightType::projector), {1, 3, 5}, {0, 0.5, 0});
+  std::vector<double> times;
+  for (int frame = 0; frame < 50; ++frame) times.push_back(frame / 20.0);
+  check_series(h.scene, times);
+}
+
 TEST(CasterLayers, ALightThatMovesRedoesItsOwnMapAlone) {
   Hall h = hall();
   reference::add_light(h.scene, lamp("stands", LightType::projector), {2, 5, 3}, {0, 0, 0});
