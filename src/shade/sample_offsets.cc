@@ -1,6 +1,7 @@
-#include <array>
+#include "shade/sample_offsets.h"
 
-#include "shade/tile_shader.h"
+#include <array>
+#include <span>
 
 namespace laterna::shade {
 namespace {

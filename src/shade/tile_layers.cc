@@ -17,10 +17,6 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-void clear(TileColor& color) {
-  for (TilePlane* plane : {&color.r, &color.g, &color.b}) plane->fill(0);
-}
-
 /// plane[pixel of sample i] += value(i), for the samples that count.
 template <class Value>
 void add_to(TilePlane& plane, const SurfaceSamples& s, Value value) {
@@ -69,11 +65,11 @@ void TileLayers::start_tile() {
   for (TilePlane& plane : result_.slide_t) plane.fill(kNaN);
   if (wanted_.geometry) {
     result_.depth.fill(kInfinity);
-    clear(result_.position);
-    clear(result_.normal);
+    fill(result_.position, 0, 0, 0);
+    fill(result_.normal, 0, 0, 0);
     result_.object.fill(kNoObject);
   }
-  if (wanted_.albedo) clear(result_.albedo);
+  if (wanted_.albedo) fill(result_.albedo, 0, 0, 0);
   if (!wanted_.photographs) return;
   result_.photographs_seen.fill(-1);
   for (TilePlane& plane : result_.photograph_share) plane.fill(0);

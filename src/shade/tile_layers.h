@@ -11,6 +11,7 @@
 #include "shade/illumination.h"
 #include "shade/photograph_painter.h"
 #include "shade/pixel_density.h"
+#include "shade/tile_planes.h"
 #include "shadow/surface_samples.h"
 
 namespace laterna::shade {
@@ -26,12 +27,6 @@ struct WantedLayers {
   bool albedo = false;
   bool photographs = false;
   bool passes = false;  // Passes::multi: the frame buffer after each pass
-};
-
-/// One channel of a tile, in the tile's storage order (raster::index_in_tile).
-struct alignas(64) TilePlane : std::array<float, raster::kTilePixels> {};
-struct TileColor {
-  TilePlane r, g, b;
 };
 
 /// What came out. Planes of layers that were not wanted are empty or unspecified.

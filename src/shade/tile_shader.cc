@@ -3,10 +3,8 @@
 #include <algorithm>
 
 #include "base/stopwatch.h"
-#include "shade/affine_slide.h"
+#include "shade/batch_shader.h"
 #include "shade/fragment_list.h"
-#include "shade/light_blender.h"
-#include "shade/light_map.h"
 #include "shade/relief_cut.h"
 #include "shade/sample_batch.h"
 #include "shade/scatter.h"
@@ -23,31 +21,6 @@ namespace {
 
 ColorTarget target_of(TileColor& color) { return {color.r.data(), color.g.data(), color.b.data()}; }
 
-void fill(TileColor& color, float r, float g, float b) {
-  color.r.fill(r);
-  color.g.fill(g);
-  color.b.fill(b);
-}
-
-void add(TilePlane& sum, const TilePlane& part) {
-  for (std::size_t i = 0; i < kTilePixels; ++i) sum[i] += part[i];
-}
-void add(TileColor& sum, const TileColor& part) {
-  add(sum.r, part.r);
-  add(sum.g, part.g);
-  add(sum.b, part.b);
-}
-void scale(TilePlane& plane, float factor) {
-  for (float& value : plane) value *= factor;
-}
-void scale(TileColor& color, float factor) {
-  scale(color.r, factor);
-  scale(color.g, factor);
-  scale(color.b, factor);
-}
-
-bool does_not_add(const ShaderLight& light) { return light.open.has_value(); }
-
 }  // namespace
 
 class TileShader::Worker {
@@ -55,62 +28,30 @@ class TileShader::Worker {
   explicit Worker(const ShaderJob& job)
       : job_(job),
         offsets_(sample_offsets(job.samples_per_pixel, job.jitter)),
-        source_{job.frame, job.view, job.interpolation, job.anisotropy},
-        cut_(source_, job.instruction_set),
+        layers_(*job.frame, *job.view, job.wanted, result_),
+        batch_(job, layers_, result_),
+        cut_(batch_.source(), job.instruction_set),
         rasterise_visibility_(raster::rasterise_visibility_for(job.instruction_set)),
         rasterise_fragments_(raster::rasterise_fragments_for(job.instruction_set)),
-        find_surface_points_(find_surface_points_for(job.instruction_set)),
-        find_irradiance_(find_irradiance_for(job.instruction_set)),
-        find_ambient_(find_ambient_for(job.instruction_set)),
-        add_light_map_(add_light_map_for(job.instruction_set)),
-        reflect_(reflect_for(job.instruction_set)),
-        reflect_environment_(reflect_environment_for(job.instruction_set)),
         show_environment_(show_environment_for(job.instruction_set)),
         pixel_rays_(*job.view),
         fill_from_blocks_(fill_from_blocks_for(job.instruction_set)),
-        find_bounds_(find_bounds_for(job.instruction_set)),
-        scatter_radiance_(scatter_radiance_for(job.instruction_set)),
-        groups_(*job.frame),
-        samples_(std::make_unique<SurfaceSamples>()),
-        points_(std::make_unique<SurfacePoints>()),
-        irradiance_(std::make_unique<Irradiance>()),
-        coordinates_(std::make_unique<SlideCoordinates>()),
-        radiance_(std::make_unique<Radiance>()),
-        arrival_(std::make_unique<shadow::Arrival>()),
-        seen_(std::make_unique<shadow::Arrival>()),
-        layers_(*job.frame, *job.view, job.wanted, result_) {
-    samples_->ray = job.view->homogeneous_ray();
-    if (!job.photographs.photographs.empty()) {
-      photographs_ =
-          std::make_unique<PhotographPainter>(job.photographs, job.wanted.photographs, job.instruction_set);
-    }
-    for (const frame::Surface& surface : job.frame->surfaces)
-      most_layers_ = std::max(most_layers_, surface.layers.size());
-    if (most_layers_ > 0)
-      layer_painter_ = std::make_unique<LayerPainter>(source_, job.decals, job.instruction_set);
-    if (job.reflection.model == ShadingModel::pbr &&
-        std::any_of(job.frame->surfaces.begin(), job.frame->surfaces.end(),
-                    [](const frame::Surface& surface) { return surface.lobes != nullptr; }))
-      lobe_shader_ = std::make_unique<LobeShader>(source_, job.lobes, job.instruction_set);
+        groups_(*job.frame) {
     if (!job.mirrors.mirror_of_cluster.empty())
       mirror_shader_ = std::make_unique<MirrorShader>(job.mirrors, *job.view);
-    if (std::any_of(job.lights.begin(), job.lights.end(), does_not_add))
-      light_blender_ = std::make_unique<LightBlender>(job.instruction_set);
-    has_lights_to_leave_out_ =
-        std::any_of(job.lights.begin(), job.lights.end(),
-                    [](const ShaderLight& light) { return !light.reach.is_everywhere(); });
   }
 
   const TileResult& shade(int tile_x, int tile_y) {
     tile_x_ = tile_x;
     tile_y_ = tile_y;
-    is_timed_ = (tile_x + 3 * tile_y) % kTilesPerTimed == 0 || shading_stages_.total() == 0;
+    batch_.clock().start_tile(tile_x, tile_y);
     watch_.start();
     for (std::size_t sample = 0; sample < offsets_.size(); ++sample) {
       sample_ = sample;
+      batch_.start_sample(sample);
       rasterise();
       raster_ms_ += watch_.lap_ms();
-      if (is_timed_) stage_watch_.start();
+      batch_.clock().start_stage();
       shade_sample();
       shade_ms_ += watch_.lap_ms();
     }
@@ -120,21 +61,13 @@ class TileShader::Worker {
   }
 
   [[nodiscard]] StageTimes times() const {
-    StageTimes times = shading_stages_.share_out(shade_ms_ - map_ms_);
+    StageTimes times = batch_.clock().stages(shade_ms_);
     times[Stage::raster] = raster_ms_;
     return times;
   }
-  [[nodiscard]] double map_ms() const { return map_ms_; }
+  [[nodiscard]] double map_ms() const { return batch_.clock().drawing_ms(); }
 
  private:
-  // Reading the clock for every batch and light would cost some per cent: it is done in one tile of so many.
-  static constexpr int kTilesPerTimed = 8;
-
-  // `elsewhere_ms`: of the lap, what is accounted for elsewhere.
-  void end_stage(Stage stage, double elsewhere_ms = 0) {
-    if (is_timed_) shading_stages_[stage] += stage_watch_.lap_ms() - elsewhere_ms;
-  }
-
   // -------------------------------------------------------------------------------------------- one sample per pixel
 
   void rasterise() {
@@ -183,7 +116,7 @@ class TileShader::Worker {
     find_coverage();
     if (!fragments_.is_empty()) blend_fragments();
     accumulate(has_planes);
-    end_stage(Stage::light);
+    batch_.clock().end_stage(Stage::light);
   }
 
   [[nodiscard]] TileOrigin origin() const {
@@ -191,21 +124,16 @@ class TileShader::Worker {
     return {*job_.frame, *job_.view, tile_x_, tile_y_, offset.x, offset.y};
   }
 
-  // What of the illumination is found: ambient light, a range of the lights, the environment where there is one.
-  struct Part {
-    bool ambient;
-    std::size_t first_light, end_light;
-    bool environment;
-  };
-  [[nodiscard]] Part everything() const {
+  [[nodiscard]] IlluminationPart everything() const {
     return {true, 0, job_.lights.size(), job_.environment.has_value()};
   }
 
-  void shade_visible(std::span<const ColorTarget> targets, const Part& part) {
-    for_each_visible_batch([&](const frame::Surface& surface) { shade_batch(surface, targets, part, true); });
+  void shade_visible(std::span<const ColorTarget> targets, const IlluminationPart& part) {
+    for_each_visible_batch(
+        [&](const frame::Surface& surface) { batch_.shade(surface, targets, part, true); });
   }
 
-  // Calls `use` with samples_ filled in, all of that surface.
+  // Calls `use` with the batch filled in, all of that surface.
   template <class Use>
   void for_each_visible_batch(Use use) {
     groups_.collect(ids_);
@@ -213,41 +141,20 @@ class TileShader::Worker {
       for (std::size_t first = 0; first < group.blocks.size(); first += kMaxGroups) {
         const std::size_t count = std::min(kMaxGroups, group.blocks.size() - first);
         fill_from_blocks_(origin(), std::span(group.blocks).subspan(first, count), depth_.data(), ids_.data(),
-                          *samples_);
+                          batch_.samples());
         use(job_.frame->surfaces[group.surface]);
       }
     }
   }
 
-  // Several textures on one primitive, the old way (MIT 6.837, lecture 20, slide 17): every polygon is scan-converted
-  // again for each layer, whose pass combines it with the base colour that the passes before have left in the frame
-  // buffer base_colors_.
+  // Every polygon scan-converted again for each layer.
   void lay_in_passes() {
-    for (std::size_t pass = 0; pass < most_layers_; ++pass) {
+    for (std::size_t pass = 0; pass < batch_.most_layers(); ++pass) {
       scan_convert_again();
       for_each_visible_batch([&](const frame::Surface& surface) {
-        if (pass >= surface.layers.size()) return;
-        find_surface_points_(source_, surface, *samples_, *points_);
-        if (pass > 0) {
-          load_base_colors();
-        } else if (photographs_ != nullptr) {
-          paint_photographs(false);
-        }
-        map_ms_ += layer_painter_->paint(surface.layers[pass], *samples_, *points_);
-        scatter(*samples_, points_->base_r.data(), base_colors_.r.data());
-        scatter(*samples_, points_->base_g.data(), base_colors_.g.data());
-        scatter(*samples_, points_->base_b.data(), base_colors_.b.data());
+        if (pass < surface.layers.size()) batch_.lay_pass(surface, pass);
       });
     }
-  }
-
-  void load_base_colors() {
-    for_each_sample(*samples_, samples_->active, [&](std::size_t i) {
-      const std::uint32_t pixel = samples_->pixel[i];
-      points_->base_r[i] = base_colors_.r[pixel];
-      points_->base_g[i] = base_colors_.g[pixel];
-      points_->base_b[i] = base_colors_.b[pixel];
-    });
   }
 
   // Segal et al. 1992, sections 3.1 and 3.3. Pass 1, hidden surface removal, has left z_p in depth_; c_p starts as the
@@ -288,7 +195,7 @@ class TileShader::Worker {
 
   // c_p before pass 2 of a light: ambient light, or what the slides before it have made of it.
   void start_illumination_pass(std::size_t light) {
-    if (!keeps_illumination()) return;
+    if (!batch_.keeps_illumination()) return;
     std::vector<TileColor>& passes = result_.pass_illumination;
     passes.resize(job_.lights.size());
     if (light > 0) {
@@ -297,107 +204,6 @@ class TileShader::Worker {
       const float* ambient = job_.reflection.ambient;
       fill(passes[0], ambient[0], ambient[1], ambient[2]);
     }
-  }
-
-  [[nodiscard]] bool keeps_illumination() const {
-    return job_.wanted.passes && job_.reflection.model == ShadingModel::papers && sample_ == 0;
-  }
-
-  // -------------------------------------------------------------------------------------------- one batch of samples
-
-  // All samples of samples_, which lie on one surface. One target takes the sum; more take ambient, each light and the
-  // environment.
-  void shade_batch(const frame::Surface& surface, std::span<const ColorTarget> targets, const Part& part,
-                   bool is_opaque) {
-    const bool sums = targets.size() == 1;
-    const std::size_t groups = samples_->group_count;
-    find_surface_points_(source_, surface, *samples_, *points_);
-    lobes_ = surface.unlit || surface.lobes == nullptr ? nullptr : lobe_shader_.get();
-    if (lobes_ != nullptr) lobes_->start(surface, *samples_, *points_);
-    end_stage(Stage::surface);
-    if (photographs_ != nullptr) paint_photographs(is_opaque);
-    if (!surface.layers.empty()) lay_layers(surface, is_opaque);
-    if (light_blender_ != nullptr)
-      light_blender_->start(*samples_, targets.subspan(0, part.first_light == 0 ? 0 : part.first_light + 1));
-    if (part.ambient) {
-      find_ambient(surface);
-      if (surface.light_map.front.chain != nullptr && !surface.unlit)
-        add_light_map_(source_, job_.reflection, surface.light_map, *samples_, *points_, *radiance_);
-      if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
-      if (!sums) scatter_radiance_(*samples_, *radiance_, targets[0]);
-    }
-    // Where a light gives nothing, planes of the picture and of fragments are dark already.
-    const bool may_leave_out = has_lights_to_leave_out_ && !wants_arrival(is_opaque) && !keeps_illumination();
-    const frame::Bounds bounds = may_leave_out ? find_bounds_(*samples_) : frame::Bounds();
-    for (std::size_t light = part.first_light; light < part.end_light; ++light) {
-      if (surface.unlit && !wants_arrival(is_opaque)) continue;
-      const ShaderLight& shader_light = job_.lights[light];
-      if (may_leave_out && !shader_light.open && !shader_light.reach.touches(bounds)) continue;
-      find_irradiance(shader_light.bound);
-      end_stage(Stage::light);
-      const double drawing_ms = find_arrival(shader_light, wants_arrival(is_opaque));
-      end_stage(Stage::shadow, drawing_ms);
-      const shadow::Arrival& seen = apply_tone(shader_light.tone, groups);
-      if (is_opaque) store_light_layers(light, seen);
-      if (surface.unlit) continue;
-      if (light_blender_ != nullptr) {
-        blend_light(shader_light, seen, sums, targets, light);
-        continue;
-      }
-      reflect(seen, shader_light.tone.fill(), sums, *radiance_);
-      if (!sums) scatter_radiance_(*samples_, *radiance_, targets[light + 1]);
-    }
-    if (part.environment && !surface.unlit) {
-      reflect_environment(sums);
-      if (!sums) scatter_radiance_(*samples_, *radiance_, targets.back());
-    }
-    if (sums) scatter_radiance_(*samples_, *radiance_, targets[0]);
-    end_stage(Stage::light);
-  }
-
-  void find_ambient(const frame::Surface& surface) {
-    if (lobes_ != nullptr) return lobes_->find_ambient(job_.reflection, *radiance_);
-    find_ambient_(job_.reflection, surface, samples_->group_count, *points_, *radiance_);
-  }
-
-  void reflect(const shadow::Arrival& arrival, float fill, bool add, Radiance& radiance) {
-    if (lobes_ != nullptr) return lobes_->reflect(*irradiance_, arrival, fill, add, radiance);
-    reflect_(job_.reflection, samples_->group_count, *points_, *irradiance_, arrival, fill, add, radiance);
-  }
-
-  void reflect_environment(bool add) {
-    if (lobes_ != nullptr) return lobes_->reflect_environment(*job_.environment, add, *radiance_);
-    reflect_environment_(*job_.environment, job_.reflection, *samples_, *points_, add, *radiance_);
-  }
-
-  // Light that meets light of other modes than add.
-  void blend_light(const ShaderLight& light, const shadow::Arrival& seen, bool sums,
-                   std::span<const ColorTarget> targets, std::size_t index) {
-    const std::size_t groups = samples_->group_count;
-    Radiance& change = light_blender_->change();
-    reflect(seen, light.tone.fill(), false, change);
-    if (light.open) {
-      find_irradiance(*light.open);
-      reflect(light_blender_->unhindered(), 0, false, light_blender_->open());
-      light_blender_->blend(light.open->light->blend, groups);
-    } else {
-      light_blender_->add(groups);
-    }
-    if (sums) {
-      add(*radiance_, change, groups);
-    } else {
-      scatter_radiance_(*samples_, change, targets[index + 1]);
-    }
-  }
-
-  // Layers of the surface on its base colour; in many passes they are there already.
-  void lay_layers(const frame::Surface& surface, bool is_opaque) {
-    if (job_.passes == Passes::multi && is_opaque) return load_base_colors();
-    double drawing_ms = 0;
-    for (const frame::LayerBinding& layer : surface.layers)
-      drawing_ms += layer_painter_->paint(layer, *samples_, *points_);
-    map_ms_ += drawing_ms;
-    end_stage(Stage::surface, drawing_ms);
   }
 
   // -------------------------------------------------------------------------------------------- environment
@@ -473,73 +279,6 @@ class TileShader::Worker {
     coverage_[fragment.pixel] = coverage_[fragment.pixel] * (1 - most) + most;
   }
 
-  // Base colours from photographs.
-  void paint_photographs(bool is_opaque) {
-    const double drawing_ms = photographs_->paint(*samples_, *points_);
-    map_ms_ += drawing_ms;
-    if (is_opaque && sample_ == 0 && job_.wanted.photographs)
-      layers_.store_photographs(*samples_, *photographs_);
-    end_stage(Stage::surface, drawing_ms);
-  }
-
-  [[nodiscard]] bool wants_arrival(bool is_opaque) const {
-    return is_opaque &&
-           (job_.wanted.visibility || job_.wanted.lux || job_.wanted.slide_uv || job_.wanted.pixel_density);
-  }
-
-  void find_irradiance(const BoundLight& light) {
-    const SlideCoordinates* coordinates = nullptr;
-    if (job_.interpolation == Interpolation::affine && light.light->type == LightType::projector) {
-      find_affine_slide_coordinates(light, source_, *samples_, *coordinates_);
-      coordinates = coordinates_.get();
-    }
-    find_irradiance_(light, *samples_, *points_, coordinates, *irradiance_);
-    if (lobes_ != nullptr) lobes_->widen(*irradiance_);
-  }
-
-  // Of the lit samples, or of all where a layer shows it. Returns what ShadowTechnique::find_arrival does.
-  double find_arrival(const ShaderLight& light, bool of_all) {
-    const std::size_t groups = samples_->group_count;
-    const std::span wanted(of_all ? samples_->active : irradiance_->lit);
-    if (light.shadow == nullptr) {
-      arrival_->alpha.fill(1);
-      arrival_->is_tinted = false;
-      return 0;
-    }
-    const double drawing_ms = light.shadow->find_arrival(*samples_, wanted.first(groups), *arrival_);
-    map_ms_ += drawing_ms;
-    if (!job_.frame->all_receive_shadows) release_non_receivers();
-    return drawing_ms;
-  }
-
-  // Objects that receive no shadow are fully lit.
-  void release_non_receivers() {
-    const SurfaceSamples& s = *samples_;
-    for (std::size_t first = 0; first < s.group_count * kGroupSize; first += kGroupSize) {
-      std::uint32_t all_flags = kReceivesShadow;
-      TriangleId last = kNoTriangle;
-      for (std::size_t i = first; i < first + kGroupSize; ++i) {
-        if (s.id[i] == last) continue;
-        last = s.id[i];
-        all_flags &= job_.frame->clusters[cluster_of(last)].flags;
-      }
-      if (all_flags != 0) continue;
-      for (std::size_t i = first; i < first + kGroupSize; ++i) {
-        if ((job_.frame->clusters[cluster_of(s.id[i])].flags & kReceivesShadow) != 0) continue;
-        for (shadow::SampleArray<float>* share :
-             {&arrival_->alpha, &arrival_->r, &arrival_->g, &arrival_->b}) {
-          (*share)[i] = 1;
-        }
-      }
-    }
-  }
-
-  const shadow::Arrival& apply_tone(const ShadowTone& tone, std::size_t groups) {
-    if (tone.is_physical()) return *arrival_;
-    tone.apply(*arrival_, groups, *seen_);
-    return *seen_;
-  }
-
   // -------------------------------------------------------------------------------------------- blending
 
   // Back to front over the opaque surface, each of the planes by itself: what a light sends through a pane of glass
@@ -556,9 +295,10 @@ class TileShader::Worker {
     for (const FragmentList::Run& run : fragments_.by_surface(*job_.frame)) {
       for (std::size_t first = 0; first < run.fragments.size(); first += shadow::kMaxSamples) {
         const std::size_t size = std::min(shadow::kMaxSamples, run.fragments.size() - first);
-        fill_from_fragments(origin(), fragments_.list(), run.fragments.subspan(first, size), *samples_);
-        shade_batch(job_.frame->surfaces[run.surface], shaded(targets), everything(), false);
-        scatter(*samples_, points_->alpha.data(), alpha);
+        fill_from_fragments(origin(), fragments_.list(), run.fragments.subspan(first, size),
+                            batch_.samples());
+        batch_.shade(job_.frame->surfaces[run.surface], shaded(targets), everything(), false);
+        scatter(batch_.samples(), batch_.alpha(), alpha);
       }
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -581,24 +321,6 @@ class TileShader::Worker {
     const bool is_all_covered = job_.background != nullptr || shows_environment();
     for (std::size_t i = 0; i < kTilePixels; ++i)
       coverage_[i] = ids_[i] == kNoTriangle && !is_all_covered ? 0.0F : 1.0F;
-  }
-
-  // Layers that measure show what arrives; the papers' frame buffer is a picture, and shows what is `seen` to.
-  void store_light_layers(std::size_t light, const shadow::Arrival& seen) {
-    const SurfaceSamples& s = *samples_;
-    const WantedLayers& wanted = job_.wanted;
-    if (wanted.visibility) layers_.add_visibility(light, s, *arrival_);
-    if (wanted.slide_uv && sample_ == 0 && job_.lights[light].bound.light->type == LightType::projector) {
-      layers_.store_slide_coordinates(light, s, *irradiance_);
-    }
-    if (keeps_illumination() && !job_.lights[light].open) {
-      TileLayers::add_illumination(s, *irradiance_, seen, result_.pass_illumination[light]);
-    }
-    if (wanted.pixel_density && sample_ == 0) layers_.store_pixel_density(light, s);
-    if (!wanted.lux || job_.lights[light].open) return;
-    if (!job_.physical_lights.empty()) find_irradiance(job_.physical_lights[light]);
-    layers_.add_lux(s, *irradiance_, *arrival_);
-    if (!job_.physical_lights.empty()) find_irradiance(job_.lights[light].bound);
   }
 
   // Adds this sample's planes to the pixel's.
@@ -634,21 +356,15 @@ class TileShader::Worker {
 
   const ShaderJob& job_;
   std::vector<SampleOffset> offsets_;
-  PointSource source_;
+  TileResult result_;
+  TileLayers layers_;
+  BatchShader batch_;
   ReliefCut cut_;
   raster::RasteriseVisibility rasterise_visibility_;
   raster::RasteriseFragments rasterise_fragments_;
-  FindSurfacePoints find_surface_points_;
-  FindIrradiance find_irradiance_;
-  FindAmbient find_ambient_;
-  AddLightMap add_light_map_;
-  Reflect reflect_;
-  ReflectEnvironment reflect_environment_;
   ShowEnvironment show_environment_;
   PixelRays pixel_rays_;
   FillFromBlocks fill_from_blocks_;
-  FindBounds find_bounds_;
-  ScatterRadiance scatter_radiance_;
 
   int tile_x_ = 0, tile_y_ = 0;
   std::size_t sample_ = 0;
@@ -658,31 +374,12 @@ class TileShader::Worker {
   TilePlane coverage_;
   FragmentList fragments_;
   std::vector<float> fragment_values_;
-  bool has_lights_to_leave_out_ = false;
   std::vector<TileColor> planes_;
   SurfaceGroups groups_;
-  std::unique_ptr<SurfaceSamples> samples_;
-  std::unique_ptr<SurfacePoints> points_;
-  std::unique_ptr<Irradiance> irradiance_;
-  std::unique_ptr<SlideCoordinates> coordinates_;
-  std::unique_ptr<Radiance> radiance_;
-  std::unique_ptr<shadow::Arrival> arrival_, seen_;
-  std::unique_ptr<PhotographPainter> photographs_;  // null: there are none
-  std::size_t most_layers_ = 0;                     // of any surface
-  std::unique_ptr<LayerPainter> layer_painter_;     // null: no surface has layers
-  TileColor base_colors_;                        // of the tile's surfaces that have layers, with many passes
-  std::unique_ptr<LightBlender> light_blender_;  // null: all lights add
-  std::unique_ptr<LobeShader> lobe_shader_;      // null: no surface shows lobes
-  LobeShader* lobes_ = nullptr;                  // of the batch; null: its surface has none
   std::unique_ptr<MirrorShader> mirror_shader_;  // null: the picture shows no mirrors
-  TileResult result_;
-  TileLayers layers_;
 
-  Stopwatch watch_, stage_watch_;
-  bool is_timed_ = false;
+  Stopwatch watch_;
   double raster_ms_ = 0, shade_ms_ = 0;
-  double map_ms_ = 0;          // of shade_ms_
-  StageTimes shading_stages_;  // of the tiles that are timed
 };
 
 TileShader::TileShader(const ShaderJob& job) : worker_(std::make_unique<Worker>(job)) {}

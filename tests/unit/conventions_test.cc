@@ -16,7 +16,7 @@
 #include "laterna/render.h"
 #include "reference/projector_scenes.h"
 #include "reference/shapes.h"
-#include "shade/tile_shader.h"
+#include "shade/sample_offsets.h"
 #include "shadow/depth_comparison.h"
 #include "unit/scene_test_files.h"
 
