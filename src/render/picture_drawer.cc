@@ -84,16 +84,19 @@ std::vector<shade::ShaderDecal> make_decals(const raster::RasterView::Ray& ray,
 }
 
 // Rows of metres, from the top.
-LayeredImage metres_of(const shadow::DepthMap& map) {
+LayeredImage metres_of(const shadow::DepthMap& map, const TaskPool& pool) {
   LayeredImage image;
   image.width = map.width();
   image.height = map.height();
   image.channels.push_back({"Z", {}});
   std::vector<float>& values = image.channels[0].values;
-  values.reserve(static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height()));
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) values.push_back(static_cast<float>(map.distance(x, y)));
-  }
+  const auto width = static_cast<std::size_t>(map.width());
+  values.resize(width * static_cast<std::size_t>(map.height()));
+  pool.for_each(static_cast<std::size_t>(map.height()), [&](std::size_t row, int) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < map.width(); ++x)
+      values[row * width + static_cast<std::size_t>(x)] = static_cast<float>(map.distance(x, y));
+  });
   return image;
 }
 
@@ -483,7 +486,7 @@ LayeredImage PictureDrawer::draw_distances(const light::PlannedLight& planned,
   statistics.shadow_ms = statistics.total_ms = watch.lap_ms();
   statistics.maps_drawn = 1;
   bins_.trim(std::min<std::size_t>(kIdleBinMemory, cache_bytes_));
-  return metres_of(*map);
+  return metres_of(*map, pool_);
 }
 
 }  // namespace laterna::render
