@@ -102,6 +102,19 @@ class Convert(unittest.TestCase):
                         if "LATERNA_lighting" in owner.get("extensions", {}):
                             check(place + ".LATERNA_lighting", owner["extensions"]["LATERNA_lighting"])
 
+    def test_mirrors_are_carried(self):
+        rig = self.folder / "mirror.json"
+        rig.write_text(json.dumps({"surfaces": [{"material": "boards", "mirror": {
+            "reflectance": [0.8, 0.9, 1], "ior": 1.5, "roughness": 0.2,
+            "waves": [{"direction": [1, 0, 0.3], "length": 0.5, "amplitude": 0.01, "speed": 1, "phase_deg": 40}]}}]}))
+        written = self.folder / "a.gltf"
+        done = run("convert", SCENES / "room.glb", "--rig", rig, "-o", written)
+        self.assertEqual((done.returncode, done.stderr), (OK, ""))
+        mirrors = list(extensions(json.loads(written.read_text())["materials"], "LATERNA_mirror"))
+        self.assertEqual(len(mirrors), 1)
+        self.assertEqual(mirrors[0]["reflectance"], [0.8, 0.9, 1])
+        check("material.LATERNA_mirror", mirrors[0])
+
     def known_keys(self, place, extension):
         """The keys that the reader names where none of them is right."""
         gltf = {"asset": {"version": "2.0"}, "scenes": [{}], "scene": 0,
