@@ -46,7 +46,7 @@ inline constexpr float kMaxMirrorIor = 100;
 inline constexpr std::size_t kMaxWaves = 64;
 inline constexpr double kMaxWavePhase = 628.31853071795865;  ///< radians: a hundred turns
 inline constexpr double kShortestWave = 1e-6;                ///< metres
-inline constexpr float kLeastAttenuationDistance = 1e-6F;    ///< metres
+inline constexpr double kLeastAttenuationDistance = 1e-6;    ///< metres
 /// How far vertices may lie off the plane of a mirror, as a fraction of its longest side.
 inline constexpr double kMirrorFlatness = 1e-3;
 /// Most mirrors that a ray may meet one after the other (RenderSettings::mirror_depth).

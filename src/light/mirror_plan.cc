@@ -64,8 +64,7 @@ std::string check_plane(const frame::Frame& frame, FlatMirror& mirror) {
       farthest = std::max(farthest, off);
     }
   });
-  if (glm::length(mirror.normal_ws) == 0)
-    return "has no plane: its triangles have no area, or as much of it on one side as on the other";
+  if (glm::length(mirror.normal_ws) == 0) return "has no area, and so no plane";
   const glm::dvec3 sides = high - low, reach = glm::max(glm::abs(low), glm::abs(high));
   const double longest = std::max({sides.x, sides.y, sides.z});
   // Rounding of its corners to single precision.

@@ -144,8 +144,8 @@ void MaterialCheck::check_mirror(const Mirror& mirror, AlphaMode alpha_mode, con
   if (!mirror.volume) return;
   check_color(place + ".volume.attenuation_color", mirror.volume->attenuation_color, 1);
   if (const double distance = mirror.volume->attenuation_distance; !std::isinf(distance) || distance < 0)
-    check_number(place + ".volume.attenuation_distance", distance, kLeastAttenuationDistance,
-                 std::numeric_limits<float>::max());
+    check_number(place + ".volume.attenuation_distance", distance,
+                 static_cast<float>(kLeastAttenuationDistance), std::numeric_limits<float>::max());
   if (!mirror.ior) fault(place + ".volume", "bends light by `ior`, which is not set");
   if (const std::string reason = find_volume_fault(mirror, alpha_mode); !reason.empty())
     fault(place + ".volume", reason);
