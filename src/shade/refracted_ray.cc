@@ -81,17 +81,19 @@ double RefractedRay::most() const {
   return std::min(deepest, 0.99 * start_ / -advance_);
 }
 
-RefractedRay::End RefractedRay::straight_below() const {
-  const Point from = at(0);
-  const float nearness = picture_.nearness(from.place.x, from.place.y);
-  if (nearness > 0) {
-    const double distance = 1 / static_cast<double>(nearness);
-    const glm::dvec3 straight =
-        view_.is_orthographic ? from_ - view_.axis_ws * (distance - start_) : from_ * (distance / start_);
-    const double t = std::min(picture_.side(view_.eye_ws + straight) / sinking_, most());
-    return {at(t).place, t};
-  }
-  if (view_.is_orthographic || advance_ <= 1e-6) return {from.place, kInfinity};
+std::optional<double> RefractedRay::as_deep_as_seen_at(double t) const {
+  const Point point = at(t);
+  const float nearness = picture_.nearness(point.place.x, point.place.y);
+  if (nearness <= 0) return std::nullopt;
+  const double distance = 1 / static_cast<double>(nearness);
+  const glm::dvec3 on_way = from_ + t * direction_;
+  const glm::dvec3 seen = view_.is_orthographic ? on_way - view_.axis_ws * (distance - point.distance)
+                                                : on_way * (distance / point.distance);
+  return std::min(picture_.side(view_.eye_ws + seen) / sinking_, most());
+}
+
+RefractedRay::End RefractedRay::endless() const {
+  if (view_.is_orthographic || advance_ <= 1e-6) return {at(0).place, kInfinity};
   const glm::dvec2 image(glm::dot(view_.x_row, direction_), glm::dot(view_.y_row, direction_));
   return {glm::vec2(image / advance_ + origin_), kInfinity};
 }
@@ -100,10 +102,9 @@ RefractedRay::End RefractedRay::straight_below() const {
 RefractedRay::End RefractedRay::find_end() const {
   constexpr int kMostSteps = 32;
   const double most = this->most();
-  if (most <= 0) return straight_below();
-  const glm::vec2 way = at(most).place - at(0).place;
-  const int steps =
-      static_cast<int>(std::clamp(std::ceil(glm::length(way) / 2), 2.0F, static_cast<float>(kMostSteps)));
+  if (most <= 0) return endless();
+  const float way = glm::length(at(most).place - at(0).place);
+  const int steps = static_cast<int>(std::clamp(std::ceil(way / 2), 2.0F, static_cast<float>(kMostSteps)));
   bool is_ahead = true;
   std::optional<double> last_seen;  // before it first passed behind something
   for (int step = 1; step <= steps; ++step) {
@@ -115,8 +116,10 @@ RefractedRay::End RefractedRay::find_end() const {
     }
     is_ahead = !is_behind;
   }
-  const End straight = straight_below();
-  return last_seen ? End{at(*last_seen).place, straight.distance} : straight;
+  const std::optional<double> t = as_deep_as_seen_at(last_seen.value_or(0));
+  if (!t) return endless();
+  const glm::vec2 place = at(*t).place;
+  return {last_seen && *t > *last_seen ? 2.0F * at(*last_seen).place - place : place, *t};
 }
 
 }  // namespace laterna::shade

@@ -29,8 +29,9 @@ class RefractedRay {
     glm::vec2 place;  ///< of the picture, as MirrorPicture::interpolated() has it
     double distance;  ///< metres from the mirror; infinite where nothing is met
   };
-  /// Where the ray meets what the picture shows. One that passes behind something, where the picture does not look, ends where it was
-  /// last in the open; one that meets nothing as deep as what lies straight behind the mirror.
+  /// Where the ray meets what the picture shows. One that meets nothing ends as deep as what lies straight behind the mirror. One that
+  /// passes behind something, where the picture does not look, ends as far on this side of where it did so: what is there goes on,
+  /// turned over.
   [[nodiscard]] End find_end() const;
 
  private:
@@ -45,7 +46,9 @@ class RefractedRay {
   // t between which and `after` the ray passes behind something; none: it does not meet it.
   [[nodiscard]] std::optional<double> meets(double before, double after) const;
   [[nodiscard]] double most() const;
-  [[nodiscard]] End straight_below() const;
+  // Where the way is as deep as what the picture shows at another place of it; none: that is nothing.
+  [[nodiscard]] std::optional<double> as_deep_as_seen_at(double t) const;
+  [[nodiscard]] End endless() const;
 
   const MirrorPicture& picture_;
   const raster::RasterView& view_;
