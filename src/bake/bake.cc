@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 
+#include "bake/bake_notes.h"
 #include "bake/bounced_light.h"
 #include "bake/light_map_layout.h"
 #include "bake/own_frame.h"
@@ -150,6 +151,7 @@ class Baker {
  private:
   void prepare() {
     if (settings_.lights.empty()) warn_of_lights_left(scene_);
+    warn_of_what_is_not_baked(scene_);
     if (!scene_.clips.empty()) {
       scene_.clips.clear();
       scene_.warnings.push_back({{}, "clips", "light maps hold one instant: animation is left out"});

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "bake/atlas_packer.h"
 #include "bake/charts.h"
+#include "laterna/relief.h"
 #include "laterna/write_scene.h"
 #include "reference/shapes.h"
 #include "unit/temporary_folder.h"
@@ -292,6 +294,75 @@ TEST(Bake, RefusesWhatMakesNoSense) {
             "object \"floor\": a triangle of 5.65685 m takes more than a light map of 64 luxels: at most "
             "11.1369 luxels per "
             "metre fit, asked for were 16");
+}
+
+// Who bakes is told of what will not show as it did.
+TEST(Bake, TellsWhatIsNotBaked) {
+  Scene scene = lit_shapes();
+  scene.materials[0].metallic = 1;
+  Relief relief;
+  relief.texture.picture = add_picture(scene, 4, 4, [](int x, int) { return glm::u8vec3(x < 2 ? 255 : 0); });
+  scene.materials[1].relief = std::make_shared<const Relief>(relief);
+  const Result<BakedScene> baked = bake_light(scene, {});
+  ASSERT_TRUE(baked);
+  ASSERT_EQ(baked->scene.warnings.size(), 2U);
+  EXPECT_EQ(
+      to_string(baked->scene.warnings[0]),
+      "material \"ball\": is metal, which scatters no light: only the model papers shows its light map");
+  EXPECT_EQ(to_string(baked->scene.warnings[1]),
+            "material \"floor\": its relief is not baked: the light is that of the flat surface");
+  EXPECT_NE(baked->scene.materials[1].relief, nullptr);
+}
+
+// Second texture coordinates that textures use are left to them, with a word, and the rest is baked.
+TEST(Bake, LeavesSurfacesWhoseTexturesUseTheSecondCoordinates) {
+  Scene scene = lit_shapes();
+  scene.materials[1].occlusion_texture.picture =
+      add_picture(scene, 4, 4, [](int, int) { return glm::u8vec3(200); });
+  scene.materials[1].occlusion_texture.uv_set = 1;
+  Primitive& floor = scene.meshes[1].primitives[0];
+  floor.uv[1] = floor.uv[0];
+  const std::vector<glm::vec2> uv = floor.uv[1];
+  BakeSettings settings;
+  settings.occlusion_rays = 4;
+  const Result<BakedScene> baked = bake_light(scene, settings);
+  ASSERT_TRUE(baked);
+  ASSERT_EQ(baked->scene.warnings.size(), 1U);
+  EXPECT_EQ(to_string(baked->scene.warnings[0]),
+            "object \"floor\": its textures use the second texture coordinates: it is not baked");
+  EXPECT_EQ(baked->report.surfaces, 1U);
+  for (const Material& material : baked->scene.materials) {
+    if (material.name != "floor") continue;
+    EXPECT_FALSE(material.light_map.front.is_set());
+    EXPECT_EQ(material.occlusion_texture.uv_set, 1);
+  }
+  EXPECT_EQ(baked->scene.meshes[static_cast<std::size_t>(baked->scene.nodes[1].mesh)].primitives[0].uv[1],
+            uv);
+}
+
+// As with any texture (the surface is drawn, and it is said): all of it takes one luxel.
+TEST(LightMapFiles, MeshesWithoutTheCoordinatesAreTold) {
+  const TemporaryFolder folder;
+  Scene scene = lit_shapes();
+  scene.materials[1].light_map.front.picture =
+      add_picture(scene, 2, 2, [](int x, int y) { return glm::u8vec3(x + y == 0 ? 255 : 0); });
+  scene.materials[1].light_map.front.uv_set = 1;
+  Primitive& floor = scene.meshes[1].primitives[0];
+  floor.uv[1] = floor.uv[0];
+  ASSERT_TRUE(write_scene(scene, folder.path() / "map.gltf"));
+  std::ifstream in(folder.path() / "map.gltf");
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  const std::string word = "\"TEXCOORD_1\"";
+  ASSERT_NE(text.find(word), std::string::npos);
+  text.replace(text.find(word), word.size(), "\"_UNUSED\"");
+  std::ofstream(folder.path() / "map.gltf") << text;
+  const Result<Scene> read = load_scene({folder.path() / "map.gltf"});
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->warnings.size(), 1U);
+  EXPECT_NE(to_string(read->warnings[0])
+                .find("material \"floor\" uses texture coordinates 1, which the mesh does not have"),
+            std::string::npos)
+      << to_string(read->warnings[0]);
 }
 
 TEST(LightMapFiles, FaultsAreNamedWithTheirPlaces) {
