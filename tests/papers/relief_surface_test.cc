@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "frame/relief_field.h"
 #include "laterna/material_lobes.h"
 #include "laterna/relief.h"
 #include "reference/layered_material.h"
@@ -137,6 +138,50 @@ TEST(Relief, ItsClearCoatLeansWithItsHeights) {
   EXPECT_GT(expected, 1.5F * upright);
   EXPECT_NEAR(shine(Leans::by_relief), expected, 2e-3F * expected);
   EXPECT_NEAR(shine(Leans::by_own_map), upright, 2e-3F * upright);
+}
+
+// A mirrored picture takes no more room than itself: 17 × 9 corners for 15 × 7 texels, the outermost twice.
+TEST(Relief, MirroringFoldsTheHeights) {
+  Image heights(15, 7, 1, PixelType::f32, Transfer::linear);
+  Sampler mirrored;
+  mirrored.wrap_u = mirrored.wrap_v = Wrap::mirror;
+  const frame::ReliefField field(heights, ReliefKind::height, mirrored);
+  EXPECT_EQ(field.x.cells, 16);
+  EXPECT_EQ(field.y.cells, 8);
+  EXPECT_EQ(field.corners.size(), 17U * 9U);
+}
+
+// Far from the picture it comes again as near it: 4000 repetitions of 2048 texels away, where lattice coordinates are beyond 8
+// million.
+TEST(Relief, RepeatsHoweverFarAway) {
+  for (const Wrap wrap : {Wrap::repeat, Wrap::mirror}) {
+    const auto draw = [&](float tiles, bool is_flat = false) {
+      Scene scene;
+      const int heights =
+          add_heights(scene, 2048, 1, [](int x, int) { return 0.5 + 0.5 * std::cos(x * kPi / 1024); });
+      add_relief_floor(scene, heights, 0.1);
+      Relief relief = *scene.materials.back().relief;
+      relief.texture.uv_from_mesh_uv = {1, 0, tiles, 0, 1, 0};
+      relief.texture.sampler.wrap_u = wrap;
+      if (is_flat) relief.depth = 0;
+      scene.materials.back().relief = std::make_shared<const Relief>(relief);
+      RenderSettings settings = papers_settings(80, 60);
+      settings.layers = {Layer::depth};
+      return make_renderer(std::move(scene))
+          .render(look({0.3, 1.25, 2.165}, {0, 0, 0}, 30, 4.0 / 3), settings)
+          .value();
+    };
+    const LayeredImage near = draw(0), far = draw(4000), flat = draw(0, true);
+    double deepest = 0;
+    for (int y = 20; y < 40; ++y) {
+      for (int x = 20; x < 60; ++x) {
+        // Texture coordinates of 4000 are told apart by half a texel, a thousandth of the floor.
+        ASSERT_NEAR(at(far, "Z", x, y), at(near, "Z", x, y), 1e-3) << x << ' ' << y;
+        deepest = std::max<double>(deepest, at(near, "Z", x, y) - at(flat, "Z", x, y));
+      }
+    }
+    EXPECT_GT(deepest, 0.05);
+  }
 }
 
 // What a wall under 1 lux of baked light shows at an angle of sight, times π.

@@ -199,6 +199,7 @@ std::array<glm::dvec3, 9> even_sky_irradiance() {
 
 TEST(EnvironmentFiles, GltfFacesAndHarmonicsAreTheRightWayRound) {
   constexpr int kSide = 32;
+  constexpr glm::vec3 kBox(5, 30, 20);  // where none of the directions below looks
   const TemporaryFolder folder;
   json document = json::parse(triangle_builder().text());
   document["images"] = json::array();
@@ -226,7 +227,7 @@ TEST(EnvironmentFiles, GltfFacesAndHarmonicsAreTheRightWayRound) {
   document["extensionsUsed"] = {"EXT_lights_image_based"};
   document["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
   Scene scene = load_or_fail({folder.write("ibl.gltf", document.dump())});
-  add_object(scene, "box", box({0, 0, 20}, glm::vec3(0.5F)));
+  add_object(scene, "box", box(kBox, glm::vec3(0.5F)));
   const Renderer renderer = make_renderer(scene);
   RenderSettings settings = test_settings(9, 9);
   settings.shading = ShadingModel::papers;
@@ -240,7 +241,7 @@ TEST(EnvironmentFiles, GltfFacesAndHarmonicsAreTheRightWayRound) {
   }
   for (int face = 0; face < 6; ++face) {
     const glm::dvec3 normal = direction_of_face(face, 0.5, 0.5);
-    const View view = look(glm::dvec3(0, 0, 20) + 3.0 * normal, {0, 0, 20}, 10, 1, {0.1, 0.7, 0.6}, 2);
+    const View view = look(glm::dvec3(kBox) + 3.0 * normal, kBox, 10, 1, {0.1, 0.7, 0.6}, 2);
     const LayeredImage image = render(renderer, view, settings);
     for (int k = 0; k < 3; ++k) {
       EXPECT_NEAR(at(image, std::string(1, "RGB"[k]), 4, 4), 0.5 + 0.4 * 2 / 3 * normal[k], 1e-4)
