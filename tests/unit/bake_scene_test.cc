@@ -104,13 +104,14 @@ TEST(BakedThings, TexturesOfTheSecondCoordinatesStay) {
     material.base_color_texture.uv_from_mesh_uv = {0, 2, 0.1F, -2, 0, 0.3F};
     if (has_both) material.emissive_texture.picture = picture;
     Primitive& p = scene.meshes[0].primitives[0];
+    p.uv = {};
     for (const glm::vec3& at : p.positions) {
       p.uv[0].emplace_back(at.x, at.z);
       p.uv[1].emplace_back(0.5F + 0.7F * at.x, 0.5F - 0.6F * at.z);
     }
     scene.lights[0].intensity = 1e-6;  // colours alone
     const Result<BakedScene> baked = bake_light(scene, {});
-    ASSERT_TRUE(baked);
+    ASSERT_TRUE(baked) << to_string(baked.error());
     EXPECT_EQ(baked->report.surfaces, 1U);
     EXPECT_EQ(warnings_of(*baked), "");
     const View view = look({0, 2, 0}, {0, 0, 0}, 30, 1, {0, 0, -1});
@@ -186,6 +187,7 @@ TEST(BakedThings, WhatIsLostIsTold) {
   }
   scene.nodes[static_cast<std::size_t>(channel.target)].transform = Transform{{0, 2, 0}};
   scene.nodes[static_cast<std::size_t>(channel.target)].parent_from_node = to_matrix(Transform{{0, 2, 0}});
+  channel.keys = 0;
   clip.channels.push_back(channel);
   scene.clips.push_back(clip);
   const Result<BakedScene> baked = bake_light(scene, {});
