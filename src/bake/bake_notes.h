@@ -1,12 +1,15 @@
-// What those who bake should know beforehand.
+// What of a scene is lost, or kept as it is, when its light is baked.
 #pragma once
 
+#include <vector>
+
+#include "laterna/bake.h"
 #include "laterna/scene.h"
 
 namespace laterna::bake {
 
-/// Adds a warning for every material whose light map will not show what one might expect: metal shows none, and the point of
-/// a relief is lit as the flat surface above it.
-void warn_of_what_is_not_baked(Scene& scene);
+/// Adds to the scene's warnings, one for each kind of thing that light maps cannot hold: lights that move and films at an instant,
+/// relief, glass, mirrors, metals. `is_baked`: by light. The scene still has its clips.
+void note_what_is_lost(Scene& scene, const std::vector<bool>& is_baked, const BakeSettings& settings);
 
 }  // namespace laterna::bake
