@@ -343,24 +343,6 @@ TEST(Bake, RefusesWhatMakesNoSense) {
             "metre fit, asked for were 16");
 }
 
-// Who bakes is told of what will not show as it did.
-TEST(Bake, TellsWhatIsNotBaked) {
-  Scene scene = lit_shapes();
-  scene.materials[0].metallic = 1;
-  Relief relief;
-  relief.texture.picture = add_picture(scene, 4, 4, [](int x, int) { return glm::u8vec3(x < 2 ? 255 : 0); });
-  scene.materials[1].relief = std::make_shared<const Relief>(relief);
-  const Result<BakedScene> baked = bake_light(scene, {});
-  ASSERT_TRUE(baked);
-  ASSERT_EQ(baked->scene.warnings.size(), 2U);
-  EXPECT_EQ(
-      to_string(baked->scene.warnings[0]),
-      "material \"ball\": is metal, which scatters no light: only the model papers shows its light map");
-  EXPECT_EQ(to_string(baked->scene.warnings[1]),
-            "material \"floor\": its relief is not baked: the light is that of the flat surface");
-  EXPECT_NE(baked->scene.materials[1].relief, nullptr);
-}
-
 // Second texture coordinates that textures use are left to them, with a word, and the rest is baked.
 TEST(Bake, LeavesSurfacesWhoseTexturesUseTheSecondCoordinates) {
   Scene scene = lit_shapes();
