@@ -30,8 +30,9 @@ def load(schema):
 def check(schema, instance):
     with warnings.catch_warnings():  # its successor is not in Debian 12
         warnings.simplefilter("ignore", DeprecationWarning)
-        resolver = jsonschema.RefResolver("", {}, store={"definitions.schema.json": load("definitions")})
-        jsonschema.Draft202012Validator(load(schema), resolver=resolver).validate(instance)
+        known = {f"{name}.schema.json": load(name) for name in ("definitions", schema)}
+        resolver = jsonschema.RefResolver("", {}, store=known)
+        jsonschema.Draft202012Validator(known[f"{schema}.schema.json"], resolver=resolver).validate(instance)
 
 
 def extensions(value, name):

@@ -343,32 +343,6 @@ TEST(Bake, RefusesWhatMakesNoSense) {
             "metre fit, asked for were 16");
 }
 
-// Second texture coordinates that textures use are left to them, with a word, and the rest is baked.
-TEST(Bake, LeavesSurfacesWhoseTexturesUseTheSecondCoordinates) {
-  Scene scene = lit_shapes();
-  scene.materials[1].occlusion_texture.picture =
-      add_picture(scene, 4, 4, [](int, int) { return glm::u8vec3(200); });
-  scene.materials[1].occlusion_texture.uv_set = 1;
-  Primitive& floor = scene.meshes[1].primitives[0];
-  floor.uv[1] = floor.uv[0];
-  const std::vector<glm::vec2> uv = floor.uv[1];
-  BakeSettings settings;
-  settings.occlusion_rays = 4;
-  const Result<BakedScene> baked = bake_light(scene, settings);
-  ASSERT_TRUE(baked);
-  ASSERT_EQ(baked->scene.warnings.size(), 1U);
-  EXPECT_EQ(to_string(baked->scene.warnings[0]),
-            "object \"floor\": its textures use the second texture coordinates: it is not baked");
-  EXPECT_EQ(baked->report.surfaces, 1U);
-  for (const Material& material : baked->scene.materials) {
-    if (material.name != "floor") continue;
-    EXPECT_FALSE(material.light_map.front.is_set());
-    EXPECT_EQ(material.occlusion_texture.uv_set, 1);
-  }
-  EXPECT_EQ(baked->scene.meshes[static_cast<std::size_t>(baked->scene.nodes[1].mesh)].primitives[0].uv[1],
-            uv);
-}
-
 // As with any texture (the surface is drawn, and it is said): all of it takes one luxel.
 TEST(LightMapFiles, MeshesWithoutTheCoordinatesAreTold) {
   const TemporaryFolder folder;
