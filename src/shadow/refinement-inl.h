@@ -433,8 +433,9 @@ HWY_INLINE Blocking TestSuspects(const ShadowMapTest& test, const BoundDepthMap&
   return blocking;
 }
 
-// α of the pixel from its places'.
-HWY_INLINE FloatVector MeanArrival(const Blocking& blocking, int count) {
+// α of the pixel from its places'. A side that the light does not fall on goes by the centre alone: what darkens it is the
+// body whose side it is, and where its triangles are smaller than the pixel, the places on their planes lie outside that.
+HWY_INLINE FloatVector MeanArrival(const Blocking& blocking, FloatMask faces_light, int count) {
   const auto one = Splat(1.0F);
   const auto lit = one - blocking.dark;
   const auto centre = hn::IfThenZeroElse(blocking.any[0], lit);
@@ -448,15 +449,22 @@ HWY_INLINE FloatVector MeanArrival(const Blocking& blocking, int count) {
     const auto blocked = hn::Or(hn::And(is_lit, blocking.beyond[i]), hn::AndNot(is_lit, blocking.any[i]));
     sum = sum + hn::IfThenZeroElse(blocked, lit);
   }
-  return hn::IfThenElse(is_lit, hn::Max(sum * share, majority), hn::Min(sum * share, one - majority));
+  const auto mean =
+      hn::IfThenElse(is_lit, hn::Max(sum * share, majority), hn::Min(sum * share, one - majority));
+  return hn::IfThenElse(faces_light, mean, centre);
 }
 
-// Whether the light runs along the surface.
-HWY_INLINE FloatMask IsGrazing(const BoundDepthMap& bound, const Points& points) {
+// How the light of a map falls on surfaces.
+struct Incidence {
+  FloatMask is_grazing;   // along them
+  FloatMask faces_light;  // on the side that is seen
+};
+HWY_INLINE Incidence FindIncidence(const BoundDepthMap& bound, const Points& points) {
   Vector3 ray = Splat3(bound.axis_ws);
   if (!bound.is_orthographic) ray = Splat3(bound.eye_ws) - points.position_ws;
   const auto limit = Splat(kGrazingCosine) * hn::Sqrt(Dot(ray, ray));
-  return hn::Abs(Dot(points.normal_ws, ray)) < limit;
+  const auto along_normal = Dot(points.normal_ws, ray);
+  return {hn::Abs(along_normal) < limit, along_normal > Splat(0.0F)};
 }
 
 HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const SurfaceSamples& s,
@@ -466,10 +474,11 @@ HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const SurfaceSa
   ForEachMap(test, points, [&](const BoundDepthMap& map, const Share& share) HWY_ATTR {
     const MapReader reader(test, map, s.position_error);
     const Suspects suspects = FindSuspects(reader, points, own, share.here);
-    places.is_grazing = IsGrazing(map, points);
+    const Incidence incidence = FindIncidence(map, points);
+    places.is_grazing = incidence.is_grazing;
     const Blocking blocking = map.is_orthographic ? TestSuspects<true>(test, map, places, suspects, own)
                                                   : TestSuspects<false>(test, map, places, suspects, own);
-    const auto alpha = MeanArrival(blocking, test.positions);
+    const auto alpha = MeanArrival(blocking, incidence.faces_light, test.positions);
     result = LayOver(share, hn::IfThenElse(suspects.is_covered, alpha, reader.Outside()), result);
   });
   return result;
