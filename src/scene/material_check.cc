@@ -30,6 +30,7 @@ class MaterialCheck : SceneCheck {
   void check_texture(const Texture& texture, const std::string& place);
   void check_material(const Material& material, const std::string& place);
   void check_layers(const Material& material, const std::string& place);
+  void check_light_map(const LightMap& light_map, const std::string& place);
   void check_lobes(const MaterialLobes& lobes, const std::string& place);
   void check_relief(const Material& material, const std::string& place);
   void check_mirror(const Mirror& mirror, AlphaMode alpha_mode, const std::string& place);
@@ -101,13 +102,25 @@ void MaterialCheck::check_material(const Material& material, const std::string& 
   check_texture(material.normal_texture, place + ".normal_texture");
   check_texture(material.occlusion_texture, place + ".occlusion_texture");
   check_texture(material.emissive_texture, place + ".emissive_texture");
-  check_texture(material.light_map.front, place + ".light_map.front");
-  check_texture(material.light_map.back, place + ".light_map.back");
-  check_number(place + ".light_map.intensity", material.light_map.intensity, 0, kMaxRadiance);
+  check_light_map(material.light_map, place + ".light_map");
   check_layers(material, place + ".layers");
   if (material.lobes != nullptr) check_lobes(*material.lobes, place + ".lobes.");
   check_relief(material, place + ".relief");
   if (material.mirror != nullptr) check_mirror(*material.mirror, material.alpha_mode, place + ".mirror");
+}
+
+// Luxels of both sides lie in the same places.
+void MaterialCheck::check_light_map(const LightMap& light_map, const std::string& place) {
+  check_texture(light_map.front, place + ".front");
+  check_texture(light_map.back, place + ".back");
+  check_number(place + ".intensity", light_map.intensity, 0, kMaxRadiance);
+  if (!light_map.back.is_set()) return;
+  if (!light_map.front.is_set()) {
+    fault(place + ".front", "is not set, but the back is");
+  } else if (light_map.back.uv_set != light_map.front.uv_set) {
+    fault(place + ".back.uv_set",
+          fmt::format("expected the front's, {}, got {}", light_map.front.uv_set, light_map.back.uv_set));
+  }
 }
 
 void MaterialCheck::check_lobes(const MaterialLobes& lobes, const std::string& place) {
