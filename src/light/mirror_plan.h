@@ -41,14 +41,12 @@ struct MirrorView {
   int mirror = -1;  ///< index into MirrorPlan::mirrors
   int parent = -1;  ///< the view that looks into it: index into MirrorPlan::views, −1: the picture's own
   int depth = 1;    ///< mirrors on the way
-  bool is_refracted =
-      false;  ///< it shows what lies behind the surface (Mirror::volume), as refracted_view() looks at it
-  bool is_turned =
-      false;  ///< its left is the picture's right: there is an odd number of reflections on the way
-  bool sees_back = false;  ///< of the mirror: the parent's eye is where its volume is
-  View view;               ///< of the mirrored picture
-  /// Metres on the other side of the plane that are shown too: about two pixels of what is refracted, so that what stands in water goes
-  /// on at the waterline.
+  bool is_refracted = false;  ///< what lies behind the surface (Mirror::volume), from refracted_view()
+  bool is_turned = false;     ///< its left is the picture's right: an odd number of reflections on the way
+  bool sees_back = false;     ///< of the mirror: the parent's eye is where its volume is
+  View view;                  ///< of the mirrored picture
+  /// Metres on the other side of the plane that are shown too: about two pixels of what is refracted, so that what stands in
+  /// water goes on at the waterline.
   double margin = 0;
   PixelBox box;             ///< of the mirrored picture, what its parent needs
   glm::dvec3 normal_ws{0};  ///< toward the parent's eye
