@@ -8,6 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "light/refracted_view.h"
+
 namespace laterna::light {
 namespace {
 
@@ -178,18 +180,28 @@ class MirrorPlanning {
     seen.sees_back = before < 0;
     seen.is_refracted = is_refracted;
     const PixelBox box = pixels_of(mirror, from);
-    seen.box = is_refracted ? box : mirrored(box, width_);
-    seen.view = is_refracted ? view : mirrored(view, mirror.normal_ws, mirror.offset);
+    if (box.is_empty()) return seen;
+    if (is_refracted) {
+      const double ior = *mirror.mirror->ior;
+      const RefractedView below =
+          refracted_view(view, width_, height_, {seen.normal_ws, seen.offset, before < 0 ? 1 / ior : ior},
+                         seen_of(mirror, from));
+      seen.box = below.box;
+      seen.view = below.view;
+      seen.margin = 2 * below.pixel;
+    } else {
+      seen.box = mirrored(box, width_);
+      seen.view = mirrored(view, mirror.normal_ws, mirror.offset);
+    }
     return seen;
   }
 
  private:
-  // Those that it may cover, with some about them where what it shows is displaced.
-  [[nodiscard]] PixelBox pixels_of(const FlatMirror& mirror, const Looking& from) const {
+  // Calls `use` with the polygons of the mirror that lie before the view and in the space that it shows.
+  template <class Use>
+  void for_each_part(const FlatMirror& mirror, const Looking& from, Use use) const {
     const Pose& pose = from.view.pose;
     const double near = from.view.projection.near;
-    const glm::dmat4 image_from_world = from.view.image_from_world();
-    glm::dvec2 low(1e300), high(-1e300);
     for_each_triangle(frame_, mirror, [&](const auto& corners) {
       std::vector<glm::dvec3> part(corners.begin(), corners.end());
       part = clip(part, [&](const glm::dvec3& p) {
@@ -198,6 +210,52 @@ class MirrorPlanning {
       if (from.through != nullptr) {
         part = clip(part, [&](const glm::dvec3& p) { return from.through->side(p); });
       }
+      use(part);
+    });
+  }
+
+  // The same of what its pixels show.
+  [[nodiscard]] SeenOfPlane seen_of(const FlatMirror& mirror, const Looking& from) const {
+    const glm::dmat4 image_from_world = from.view.image_from_world();
+    const PixelBox& box = from.box;
+    SeenOfPlane seen;
+    double areas = 0;
+    for_each_part(mirror, from, [&](std::vector<glm::dvec3>& part) {
+      for (int side = 0; side < 4; ++side) {
+        const int axis = side % 2;
+        const double sign = side < 2 ? 1 : -1, size = axis == 0 ? width_ : height_;
+        const double limit = (side == 0   ? box.x_begin
+                              : side == 1 ? box.y_begin
+                              : side == 2 ? box.x_end
+                                          : box.y_end) /
+                             size;
+        part = clip(part, [&](const glm::dvec3& p) {
+          const glm::dvec4 image = image_from_world * glm::dvec4(p, 1);
+          return sign * (image[axis] - limit * image.w);
+        });
+      }
+      std::vector<glm::dvec2> places;
+      for (const glm::dvec3& p : part) {
+        const glm::dvec4 image = image_from_world * glm::dvec4(p, 1);
+        places.emplace_back(image.x / image.w, image.y / image.w);
+        seen.corners_ws.push_back(p);
+      }
+      for (std::size_t i = 2; i < places.size(); ++i) {
+        const glm::dvec2 a = places[i - 1] - places[0], b = places[i] - places[0];
+        const double area = std::abs(a.x * b.y - a.y * b.x) + 1e-12;
+        seen.middle += area * (places[0] + places[i - 1] + places[i]) / 3.0;
+        areas += area;
+      }
+    });
+    seen.middle = areas > 0 ? seen.middle / areas : glm::dvec2(0.5);
+    return seen;
+  }
+
+  // Pixels that it may cover, with some about them where what it shows is displaced.
+  [[nodiscard]] PixelBox pixels_of(const FlatMirror& mirror, const Looking& from) const {
+    const glm::dmat4 image_from_world = from.view.image_from_world();
+    glm::dvec2 low(1e300), high(-1e300);
+    for_each_part(mirror, from, [&](const std::vector<glm::dvec3>& part) {
       for (const glm::dvec3& p : part) {
         const glm::dvec4 image = image_from_world * glm::dvec4(p, 1);
         const glm::dvec2 pixel(image.x / image.w * width_, image.y / image.w * height_);
@@ -207,7 +265,7 @@ class MirrorPlanning {
     });
     if (low.x > high.x) return {};
     const Mirror& look = *mirror.mirror;
-    const bool is_displaced = look.roughness > 0 || !look.waves.empty() || look.volume.has_value();
+    const bool is_displaced = look.roughness > 0 || !look.waves.empty();
     const int reach = is_displaced ? std::max(width_, height_) / 6 : 0;
     // Clamped first: far off the picture numbers need not be whole ones that fit.
     const auto first = [&](double at, int begin) {
@@ -242,8 +300,8 @@ void add_looks(const MirrorPlanning& planning, const Looking& from, int parent, 
     seen.parent = parent;
     seen.depth = from.through == nullptr ? 1 : through.depth + 1;
     seen.is_turned = through.is_turned != !is_refracted;
-    seen.reflections = through.reflections;
-    if (!is_refracted) seen.reflections.push_back(index);
+    seen.way = through.way;
+    seen.way.push_back(2 * index + (is_refracted ? 1 : 0));
     plan.views.push_back(std::move(seen));
   }
 }

@@ -8,6 +8,7 @@
 #include "frame/frame.h"
 #include "laterna/mirrors.h"
 #include "laterna/view.h"
+#include "light/pixel_box.h"
 
 namespace laterna::light {
 
@@ -30,11 +31,6 @@ Result<std::vector<FlatMirror>> find_mirrors(const frame::Frame& frame);
 /// side of the picture.
 View mirrored(const View& view, const glm::dvec3& normal_ws, double offset);
 
-/// Pixels of a picture; ends excluded.
-struct PixelBox {
-  int x_begin = 0, y_begin = 0, x_end = 0, y_end = 0;
-  [[nodiscard]] bool is_empty() const { return x_begin >= x_end || y_begin >= y_end; }
-};
 /// The same pixels of the mirrored picture, and back.
 inline PixelBox mirrored(const PixelBox& box, int width) {
   return {width - box.x_end, box.y_begin, width - box.x_begin, box.y_end};
@@ -45,16 +41,18 @@ struct MirrorView {
   int mirror = -1;  ///< index into MirrorPlan::mirrors
   int parent = -1;  ///< the view that looks into it: index into MirrorPlan::views, −1: the picture's own
   int depth = 1;    ///< mirrors on the way
-  bool is_refracted = false;  ///< seen through the surface (Mirror::volume): the view is the parent's own
-  bool is_turned =
-      false;  ///< its left is the picture's right: there is an odd number of reflections on the way
-  bool sees_back = false;   ///< of the mirror: the parent's eye is where its volume is
-  View view;                ///< of the mirrored picture
+  bool is_refracted = false;  ///< what lies behind the surface (Mirror::volume), from refracted_view()
+  bool is_turned = false;     ///< its left is the picture's right: an odd number of reflections on the way
+  bool sees_back = false;     ///< of the mirror: the parent's eye is where its volume is
+  View view;                  ///< of the mirrored picture
+  /// Metres on the other side of the plane that are shown too: about two pixels of what is refracted, so that what stands in
+  /// water goes on at the waterline.
+  double margin = 0;
   PixelBox box;             ///< of the mirrored picture, what its parent needs
   glm::dvec3 normal_ws{0};  ///< toward the parent's eye
   double offset = 0;        ///< of the plane: normal_ws · position = offset
-  /// Reflections on the way, as numbers of mirrors: which view it is, in other pictures too. Refraction leaves the view as it is.
-  std::vector<int> reflections;
+  /// Reflections on the way, 2 · the mirror's number, and refractions, one more: which view it is, in other pictures too.
+  std::vector<int> way;
 
   /// Not negative where what it shows lies, metres from the plane: before the mirror, or behind it where it is refracted.
   [[nodiscard]] double side(const glm::dvec3& position_ws) const {

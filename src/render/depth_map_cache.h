@@ -53,9 +53,9 @@ void draw_tiles(shadow::DepthMap& map, const TaskPool& pool, StageTimes& times,
 /// Whose maps they are.
 struct DepthMapOwner {
   std::size_t light = 0;
-  /// Of maps that follow the camera: the mirrored view that they are for (light::MirrorView::reflections). Else empty, so that all
+  /// Of maps that follow the camera: the mirrored view that they are for (light::MirrorView::way). Else empty, so that all
   /// views share them.
-  std::vector<int> reflections;
+  std::vector<int> way;
   auto operator<=>(const DepthMapOwner&) const = default;
 };
 

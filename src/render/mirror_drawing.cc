@@ -49,7 +49,7 @@ std::unique_ptr<const shade::MirrorPicture> MirrorDrawing::draw_picture(int inde
   auto picture = std::make_unique<shade::MirrorPicture>(seen, mirror, width_, height_, seconds_);
   shade::MirrorJob within = draw_seen_by(index);
   const double sign = seen.is_refracted ? -1 : 1;
-  const raster::CuttingPlane cut = {sign * seen.normal_ws, sign * seen.offset};
+  const raster::CuttingPlane cut = {sign * seen.normal_ws, sign * seen.offset - seen.margin};
   const std::vector<bool> left_out = clusters_in_plane_of(seen.mirror);
   PicturePart part;
   part.pixels = {seen.box.x_begin, seen.box.y_begin, seen.box.x_end, seen.box.y_end};

@@ -183,9 +183,8 @@ shade::PhotographJob PictureDrawer::make_photograph_job(const raster::RasterView
 
 // Everything the tiles share, with every shadow technique ready to answer.
 shade::ShaderJob PictureDrawer::make_job(const raster::RasterView& view, const RenderSettings& settings,
-                                         const PicturePlan& planned_picture,
-                                         const std::vector<int>& reflections, RenderStatistics& statistics,
-                                         ProgressReport& progress) const {
+                                         const PicturePlan& planned_picture, const std::vector<int>& way,
+                                         RenderStatistics& statistics, ProgressReport& progress) const {
   shade::ShaderJob job;
   job.frame = &frame();
   job.view = &view;
@@ -205,7 +204,7 @@ shade::ShaderJob PictureDrawer::make_job(const raster::RasterView& view, const R
   job.instruction_set = instruction_set_;
   const raster::RasterView::Ray ray = view.homogeneous_ray();
   ShadowCasting casting({frame(), pool_, instruction_set_, bins_, maps_, paraboloids_, posed_.casters(), view,
-                         settings, statistics, progress, reflections});
+                         settings, statistics, progress, way});
   job.photographs = make_photograph_job(ray, settings, planned_picture.photographs, casting);
   job.decals = make_decals(ray, settings, planned_picture.decals, casting);
   add_lights(ray, settings, planned_picture.lights, casting, progress, job);
@@ -330,9 +329,9 @@ Result<void> PictureDrawer::draw_part(const View& from, const RenderSettings& se
       light::make_decal_plan(frame(), settings.shadows)};
   statistics.plan_ms += watch.lap_ms();
   const raster::RasterView view(from, settings.width, settings.height);
-  const std::vector<int> reflections = part.seen != nullptr ? part.seen->reflections : std::vector<int>();
+  const std::vector<int> way = part.seen != nullptr ? part.seen->way : std::vector<int>();
   if (frame().has_mirrors) maps_.make_room(cache_bytes_);
-  shade::ShaderJob job = make_job(view, settings, plan, reflections, statistics, progress);
+  shade::ShaderJob job = make_job(view, settings, plan, way, statistics, progress);
   job.jitter = jitter_of(sample);
   if (part.seen != nullptr && part.seen->is_turned) job.jitter.x = std::min(-job.jitter.x, 127);
   job.mirrors = std::move(mirrors);

@@ -80,7 +80,7 @@ DepthMaps ShadowCasting::find_maps(const light::PlannedLight& planned, std::size
                                    bool keeps_triangles) {
   ProgressReport& progress = context_.progress;
   const DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces, keeps_triangles};
-  const DepthMapOwner owner = {index, follows_camera(planned) ? context_.reflections : std::vector<int>()};
+  const DepthMapOwner owner = {index, follows_camera(planned) ? context_.way : std::vector<int>()};
   const DepthMapCache::Found found = context_.maps.find(
       owner, key,
       {context_.frame, context_.pool, context_.bins, context_.instruction_set,

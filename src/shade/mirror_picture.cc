@@ -10,8 +10,7 @@ MirrorPicture::MirrorPicture(const light::MirrorView& seen, const Mirror& mirror
     : mirror_(&mirror),
       seen_(seen),
       seconds_(seconds),
-      picture_width_(width),
-      picture_height_(height),
+      drawn_(seen.view, width, height),
       box_(seen.is_refracted ? seen.box : light::mirrored(seen.box, width)),
       levels_(1) {
   Level& finest = levels_[0];
@@ -34,7 +33,7 @@ void MirrorPicture::write(int tile_x, int tile_y, const TileResult& tile) {
     for (int x = x_begin; x < x_end; ++x) {
       const auto i = static_cast<std::size_t>(raster::index_in_tile(x - tile_x * kSide, y - tile_y * kSide));
       const float nearness = needs_depth() ? 1 / tile.depth[i] : 0;
-      const int column = seen_.is_refracted ? x : picture_width_ - 1 - x;
+      const int column = seen_.is_refracted ? x : drawn_.width - 1 - x;
       row[column - box_.x_begin] = {tile.beauty.r[i], tile.beauty.g[i], tile.beauty.b[i], nearness};
     }
   }
@@ -42,7 +41,7 @@ void MirrorPicture::write(int tile_x, int tile_y, const TileResult& tile) {
 
 // How far what is shown reaches.
 void MirrorPicture::find_extent() {
-  const raster::RasterView drawn(seen_.view, picture_width_, picture_height_);
+  const raster::RasterView& drawn = drawn_;
   const Level& finest = levels_[0];
   for (int y = 0; y < finest.height; ++y) {
     for (int x = 0; x < finest.width; ++x) {

@@ -22,6 +22,8 @@ class MirrorPicture {
   [[nodiscard]] const glm::dvec3& normal_ws() const { return seen_.normal_ws; }
   /// Whether the eye is on the side of the mirror's volume.
   [[nodiscard]] bool sees_back() const { return seen_.sees_back; }
+  /// The view of the picture, as it was drawn.
+  [[nodiscard]] const raster::RasterView& drawn() const { return drawn_; }
   /// Metres from the mirror's plane into what is shown.
   [[nodiscard]] double side(const glm::dvec3& position_ws) const { return seen_.side(position_ws); }
   [[nodiscard]] double seconds() const { return seconds_; }
@@ -62,7 +64,7 @@ class MirrorPicture {
   const Mirror* mirror_;
   light::MirrorView seen_;
   double seconds_;
-  int picture_width_, picture_height_;
+  raster::RasterView drawn_;
   light::PixelBox box_;  // of the view's picture
   float farthest_ = 0;
   double deepest_ = 0;

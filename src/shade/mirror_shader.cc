@@ -120,14 +120,14 @@ glm::vec3 MirrorShader::refract(const MirrorPicture& picture, const MirrorSample
   const double index = index_of(picture);
   const std::optional<glm::dvec3> direction = refracted(sight.along_ws, normal, index);
   if (!direction) return glm::vec3(0);  // all of it is mirrored
-  const RefractedRay ray(picture, view_, sight.place_ws, *direction, sampled_at_);
+  const RefractedRay ray(picture, sight.place_ws, *direction, sampled_at_);
   const RefractedRay::End end = ray.find_end();
   const glm::vec3 share = picture.sees_back() ? glm::vec3(1) : attenuation(*mirror.volume, end.distance);
   if (mirror.roughness == 0) return share * glm::vec3(picture.interpolated(end.place.x, end.place.y, 0));
   // A facet that is tilted by an angle turns what it refracts by (1 − 1/n) of it, and what it mirrors by twice of it.
   const auto bend = static_cast<float>(std::abs(1 - 1 / index));
-  return share * blurred(picture, view_, bend * mirror.roughness * mirror.roughness,
-                         static_cast<float>(sight.distance), end.place.x, end.place.y);
+  return share * blurred(picture, picture.drawn(), bend * mirror.roughness * mirror.roughness,
+                         static_cast<float>(ray.start()), end.place.x, end.place.y);
 }
 
 }  // namespace laterna::shade

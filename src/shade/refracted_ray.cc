@@ -31,15 +31,15 @@ glm::vec3 attenuation(const MirrorVolume& volume, double metres) {
   return share;
 }
 
-RefractedRay::RefractedRay(const MirrorPicture& picture, const raster::RasterView& view,
-                           const glm::dvec3& place_ws, const glm::dvec3& direction_ws, glm::vec2 sampled_at)
+RefractedRay::RefractedRay(const MirrorPicture& picture, const glm::dvec3& place_ws,
+                           const glm::dvec3& direction_ws, glm::vec2 sampled_at)
     : picture_(picture),
-      view_(view),
-      from_(place_ws - view.eye_ws),
+      view_(picture.drawn()),
+      from_(place_ws - view_.eye_ws),
       direction_(direction_ws),
-      origin_(glm::dvec2(view.origin_x, view.origin_y) - glm::dvec2(sampled_at)),
+      origin_(glm::dvec2(view_.origin_x, view_.origin_y) - glm::dvec2(sampled_at)),
       sinking_(std::max(-glm::dot(picture.normal_ws(), direction_ws), 1e-3)) {
-  const glm::dvec3 forward = view.view.pose.forward_ws();
+  const glm::dvec3 forward = view_.view.pose.forward_ws();
   start_ = glm::dot(forward, from_);
   advance_ = glm::dot(forward, direction_);
 }

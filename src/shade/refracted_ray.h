@@ -20,10 +20,10 @@ glm::vec3 attenuation(const MirrorVolume& volume, double metres);
 
 class RefractedRay {
  public:
-  /// From a place of the mirror, in a unit direction. `sampled_at`: where in its pixels the picture's sample lies, from their
-  /// centres. All must outlive it.
-  RefractedRay(const MirrorPicture& picture, const raster::RasterView& view, const glm::dvec3& place_ws,
-               const glm::dvec3& direction_ws, glm::vec2 sampled_at);
+  /// From a place of the mirror, in a unit direction, through the space that the picture shows. `sampled_at`: where in its pixels the
+  /// picture's sample lies, from their centres. The picture must outlive it.
+  RefractedRay(const MirrorPicture& picture, const glm::dvec3& place_ws, const glm::dvec3& direction_ws,
+               glm::vec2 sampled_at);
 
   struct End {
     glm::vec2 place;  ///< of the picture, as MirrorPicture::interpolated() has it
@@ -33,6 +33,8 @@ class RefractedRay {
   /// passes behind something, where the picture does not look, ends as far on this side of where it did so: what is there goes on,
   /// turned over.
   [[nodiscard]] End find_end() const;
+  /// Of the place that it comes from, metres along the axis of the picture's view.
+  [[nodiscard]] double start() const { return start_; }
 
  private:
   // A place on the way, in the picture.

@@ -1,4 +1,7 @@
 // What Chen and Tung leave to the future: "reflection, not shadow". Mirrors and water.
+#include <algorithm>
+#include <utility>
+
 #include "laterna/mirrors.h"
 #include "paintings.h"
 #include "sitting.h"
@@ -77,6 +80,31 @@ void draw_facing(Sitting& sitting) {
   }
 }
 
+// Seen through: what lies below is refracted, and the water's colour comes with the way that light goes in it.
+void draw_below(Sitting& sitting, Shot shot, Mirror water) {
+  Scene& scene = shot.scene;
+  water.volume = {{0.35F, 0.75F, 0.85F}, 1};
+  add_object(scene, "sunk", ball({0.55F, -0.25F, 0.2F}, 0.25F),
+             add_material(scene, "brick", {0.62F, 0.24F, 0.12F}));
+  add_object(scene, "post", box({-0.65F, -0.5F, 0.1F}, {-0.55F, 0.5F, 0.2F}),
+             add_material(scene, "oak", {0.30F, 0.17F, 0.07F}));
+  const auto pond = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                 [](const Material& material) { return material.name == "water"; });
+  const std::vector<Wave> waves = std::exchange(water.waves, {});
+  for (const bool is_refracted : {false, true}) {
+    Mirror clear = water;
+    if (!is_refracted) clear.volume.reset();
+    pond->mirror = std::make_shared<const Mirror>(clear);
+    pond->base_color.a = is_refracted ? 0.1F : 0.3F;
+    sitting.picture(is_refracted ? "Refracted: the post bends and the ball is flat, as rays have it."
+                                 : "Seen straight through: the post goes on as if there were no water.",
+                    shot);
+  }
+  water.waves = waves;
+  pond->mirror = std::make_shared<const Mirror>(water);
+  sitting.picture("Refracted by waves.", shot);
+}
+
 void draw_water(Sitting& sitting) {
   Shot shot = show();
   Scene& scene = shot.scene;
@@ -97,6 +125,7 @@ void draw_water(Sitting& sitting) {
                  {{0.5, 0, -1}, 0.31, 0.002, {}, 0}};
   scene.materials.back().mirror = std::make_shared<const Mirror>(water);
   sitting.picture("Three trains of waves.", shot);
+  draw_below(sitting, std::move(shot), water);
 }
 
 constexpr Figure kFigures[] = {
@@ -112,10 +141,12 @@ constexpr Figure kFigures[] = {
      "At the set depth mirrors are plain grey surfaces.",
      "laterna render room.glb --rig r.json --mirror-depth 6", draw_facing},
     {"water", "Water", "Chen and Tung, future work: water",
-     "Fresnel's equations: what lies below is seen near by, and the screen farther off. Waves bend the look.",
-     "What lies below is not refracted.",
+     "Fresnel's equations: what lies below is seen near by, and the screen farther off. Waves bend the look, "
+     "and with a volume what lies below is refracted.",
+     "Light that falls into the water is not bent: its shadows and slides lie where straight rays leave "
+     "them.",
      "\"mirror\": {\"ior\": 1.333, \"waves\": [{\"direction\": [1, 0, 0.4], \"length\": 0.9, \"amplitude\": "
-     "0.006}]}",
+     "0.006}], \"volume\": {\"attenuation_color\": [0.35, 0.75, 0.85], \"attenuation_distance\": 1}}",
      draw_water},
 };
 
