@@ -3,9 +3,16 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "interruption.h"
 #include "laterna/bake.h"
 #include "laterna/write_scene.h"
 #include "outcome.h"
@@ -22,23 +29,50 @@ struct Options {
   std::string output, quake;
   bool embeds = false, json = false;
   RadiositySettings radiosity{.bounces = 0};
+  std::optional<double> stops;
 };
 
+std::string text_of(const BakeReport::Page& page) {
+  return fmt::format("{} x {}{}", page.width, page.height, page.has_back ? " (two sides)" : "");
+}
+
+// "37 of 2048 x 2048, 512 x 300 (two sides), and 3 of other sizes": those of which there are most first.
+std::string text_of(const std::vector<BakeReport::Page>& pages) {
+  constexpr std::size_t kSizesTold = 4;
+  std::vector<std::pair<std::string, std::size_t>> sizes;
+  for (const BakeReport::Page& page : pages) {
+    const std::string text = text_of(page);
+    const auto known = std::ranges::find(sizes, text, &std::pair<std::string, std::size_t>::first);
+    if (known == sizes.end()) {
+      sizes.emplace_back(text, 1);
+    } else {
+      ++known->second;
+    }
+  }
+  std::ranges::stable_sort(sizes, std::ranges::greater(), &std::pair<std::string, std::size_t>::second);
+  std::string told;
+  std::size_t others = pages.size();
+  for (std::size_t i = 0; i < std::min(kSizesTold, sizes.size()); ++i) {
+    const auto& [text, count] = sizes[i];
+    told +=
+        fmt::format("{}{}{}", told.empty() ? "" : ", ", count > 1 ? fmt::format("{} of ", count) : "", text);
+    others -= count;
+  }
+  return others == 0 ? told : fmt::format("{}, and {} of other sizes", told, others);
+}
+
 void print_report(const BakeReport& r, const std::string& output) {
-  std::string pages;
-  for (const BakeReport::Page& page : r.pages)
-    pages += fmt::format("{}{} x {}{}", pages.empty() ? "" : ", ", page.width, page.height,
-                         page.has_back ? " (two sides)" : "");
   std::string lights;
   for (const std::string& light : r.lights) lights += (lights.empty() ? "" : ", ") + light;
   fmt::print("{}: {} surfaces in {} charts on {} light map{}: {}\n", output, r.surfaces, r.charts,
-             r.pages.size(), r.pages.size() == 1 ? "" : "s", pages);
+             r.pages.size(), r.pages.size() == 1 ? "" : "s", text_of(r.pages));
   fmt::print("  lights:  {}\n", lights.empty() ? "none" : lights);
   fmt::print(
       "  luxels:  {}, {} of them lit or padding, {:.1f} % of the area is surface, {:.1f} MB in memory\n",
       r.luxels, r.lit_luxels, 100 * r.used, static_cast<double>(r.bytes) / 1e6);
   fmt::print("  density: {:.4g} to {:.4g} luxels per metre\n", r.least_density, r.greatest_density);
   if (r.bounces > 0) fmt::print("  bounces: {}\n", r.bounces);
+  if (r.exposure > 0) fmt::print("  shown:   radiance times {:.4g}, 1 is white\n", r.exposure);
   fmt::print("  time:    {:.2f} s laying out, {:.2f} s light", r.layout_ms / 1000, r.light_ms / 1000);
   if (r.resumed_strips > 0) fmt::print("; {} of {} parts were there already", r.resumed_strips, r.strips);
   fmt::print("\n");
@@ -57,6 +91,7 @@ nlohmann::ordered_json report_json(const BakeReport& r) {
   json["used"] = r.used;
   json["luxels_per_metre"] = {r.least_density, r.greatest_density};
   json["bounces"] = r.bounces;
+  if (r.exposure > 0) json["exposure"] = r.exposure;
   json["bytes"] = r.bytes;
   json["parts"] = r.strips;
   json["resumed_parts"] = r.resumed_strips;
@@ -65,10 +100,48 @@ nlohmann::ordered_json report_json(const BakeReport& r) {
   return json;
 }
 
+const char* name_of(BakeStage stage) {
+  switch (stage) {
+    case BakeStage::layout:
+      return "laying out";
+    case BakeStage::direct_light:
+      return "direct light";
+    case BakeStage::reflected_light:
+      break;
+  }
+  return "reflected light";
+}
+
+// What was finished stays: `laterna bake --resume` goes on with it.
+Result<BakedScene> bake(Scene scene, BakeSettings settings) {
+  BakeStage stage = BakeStage::layout;
+  settings.stage_begins = [&stage](BakeStage begun) { stage = begun; };
+  const Progress line = progress_line([&stage] { return fmt::format("baking: {}", name_of(stage)); });
+  int signal = 0;
+  Result<BakedScene> baked = [&] {
+    const Interruption interruption(true);
+    Result<BakedScene> made = bake_light(std::move(scene), settings, [&](double fraction) {
+      if (line) line(fraction);
+      return interruption.signal() == 0;
+    });
+    signal = interruption.signal();
+    return made;
+  }();
+  if (signal == 0) return baked;
+  if (!baked && baked.error().failure == Failure::cancelled)
+    fmt::print(stderr, "{}laterna: stopped: what is finished lies beside {}, and --resume goes on with it\n",
+               line ? "\r\033[K" : "", settings.work_file.string());
+  end_by_signal(signal);
+}
+
 int run_bake(Options options) {
   if (const Result<void> possible = check_scene_output(options.output); !possible)
     return report(possible.error());
+  if (options.stops && options.bake.into != BakeInto::emissive)
+    return report(bad_option("--exposure belongs to --into emissive: light maps keep the light as it is"));
   if (!options.quake.empty()) {
+    if (options.bake.into == BakeInto::emissive)
+      return report(bad_option("--quake shows light maps: leave --into emissive out"));
     if (options.json) return report(bad_option("--quake tells what it found in words: leave --json out"));
     if (const Result<void> possible = check_quake_output(options.quake); !possible)
       return report(possible.error());
@@ -86,13 +159,15 @@ int run_bake(Options options) {
   options.bake.options.time = options.scene.time;
   if (options.radiosity.bounces > 0) options.bake.interreflection = options.radiosity;
   options.bake.work_file = options.output;
-  Result<BakedScene> baked = bake_light(std::move(*scene), options.bake, progress_line("baking"));
+  if (options.stops) options.bake.exposure = exposure_from_stops(*options.stops);
+  Result<BakedScene> baked = bake(std::move(*scene), options.bake);
   if (!baked) return report(baked.error());
   report_warnings(baked->scene.warnings);
   const Result<std::vector<Diagnostic>> written =
       write_scene(baked->scene, options.output, SceneWriteOptions{.embeds = options.embeds});
   if (!written) return report(written.error());
   report_warnings(*written);
+  remove_bake_parts(options.bake.work_file);
   if (options.json) {
     fmt::print("{}\n", report_json(baked->report).dump(2));
   } else {
@@ -149,6 +224,19 @@ void declare_bake(CLI::App& app, Run& run) {
       ->capture_default_str();
   command->add_option("--occlusion-distance", b.occlusion_distance,
                       "metres: what is farther away hides no ambient light (default: everything does)");
+  command
+      ->add_option(
+          "--into", b.into,
+          "light-maps: for Laterna; emissive: light times colour into emissive textures, for every program "
+          "that reads glTF")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, BakeInto>{{"light-maps", BakeInto::light_maps},
+                                                                  {"emissive", BakeInto::emissive}})
+              .description(""));
+  command
+      ->add_option("--exposure", o.stops,
+                   "stops, with --into emissive, whose textures end at white (default: automatic)")
+      ->check(CLI::Range(-40, 40));
   command->add_option("--lights", b.lights, "bake these lights only, by name; the others stay")
       ->delimiter(',');
   command->add_flag("--keep-lights", b.keep_lights, "leave the baked lights in the file: they shine twice");
@@ -169,9 +257,11 @@ void declare_bake(CLI::App& app, Run& run) {
       "The file\n"
       "is shown by `laterna render` from any view, as fast as a scene without lights and shadows; highlights "
       "are not\n"
-      "kept. Other programs see its materials without the light: the extension LATERNA_light_map says where "
-      "it is\n"
-      "(docs/LATERNA_light_map.md), and ambient occlusion is glTF's own. Lights that were baked are left "
+      "kept. Other programs see its materials without the light (the extension LATERNA_light_map says where "
+      "it "
+      "is,\n"
+      "docs/LATERNA_light_map.md), unless it is baked --into emissive; ambient occlusion is glTF's own. "
+      "Lights that were baked are left "
       "out.\n"
       "Shadows are found by rays, whatever the lights' techniques. A luxel of 6 cm (--density 16) shows "
       "shadows to\n"
@@ -183,6 +273,7 @@ void declare_bake(CLI::App& app, Run& run) {
       "  laterna bake room.glb --rig stage.json -o baked.glb --density 40 --samples 4\n"
       "  laterna bake room.glb --rig stage.json -o baked.glb --bounces 100\n"
       "  laterna bake room.glb -o baked.glb --ambient-occlusion 256 --occlusion-distance 1\n"
+      "  laterna bake room.glb --rig stage.json -o anywhere.glb --into emissive --density 100\n"
       "  laterna render baked.glb -o picture.png\n");
   command->callback([options, &run] { run = [options] { return run_bake(*options); }; });
 }

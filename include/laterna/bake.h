@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -20,6 +22,18 @@ inline constexpr int kMostLuxelSamples = 16, kMostLuxelPadding = 64;
 inline constexpr int kMostOcclusionRays = 65536;
 /// Of all light maps of a scene together.
 inline constexpr std::size_t kMostLuxels = std::size_t{1} << 28;
+/// Pictures of light for a scene; the backs of double-sided surfaces are not counted.
+inline constexpr std::size_t kMostLightMaps = 4096;
+
+/// Where the light goes.
+enum class BakeInto : std::uint8_t {
+  light_maps,  ///< LightMap of materials: seen by Laterna alone, in every exposure, with the colours of textures
+  /// Colours times light in emissive textures, 8-bit, as fine as luxels: seen by every program that reads glTF.
+  emissive,
+};
+
+/// What a bake is at, in this order.
+enum class BakeStage : std::uint8_t { layout, direct_light, reflected_light };
 
 struct BakeSettings {
   double density = 16;  ///< luxels per metre of the world
@@ -38,13 +52,17 @@ struct BakeSettings {
   double occlusion_distance =
       std::numeric_limits<double>::infinity();  ///< metres: what is farther away hides nothing
   bool unwrap_all = false;  ///< surfaces are laid out anew even where their second texture coordinates serve
+  BakeInto into = BakeInto::light_maps;
+  /// BakeInto::emissive: factor on radiance, such that 1 is a viewer's white. 0: automatic_exposure() over all luxels.
+  float exposure = 0;
   std::vector<std::string> lights;  ///< to be baked, by name; empty: all that are on and add their light
   bool keep_lights = false;         ///< those that were baked stay, and shine as well
   RendererOptions options;          ///< threads, instruction set
-  /// Finished parts are kept in files beside this one as they come ("room.glb.bake-0-3"), each whole or absent, and are
-  /// removed at the end. Empty: nowhere.
+  /// Finished parts are kept in files beside this one as they come ("room.glb.bake-0-3"), each whole or absent, until
+  /// remove_bake_parts(). Empty: nowhere.
   std::filesystem::path work_file;
   bool resume = false;  ///< parts of the same scene and settings that are there are taken as they are
+  std::function<void(BakeStage)> stage_begins;  ///< from the thread that calls bake_light()
 };
 
 struct BakeReport {
@@ -63,13 +81,14 @@ struct BakeReport {
   std::size_t strips = 0,
               resumed_strips = 0;  ///< parts in which the work was done, and those that were there already
   double layout_ms = 0, light_ms = 0;
+  float exposure = 0;               ///< that BakeInto::emissive was given, or has found
   int bounces = 0;                  ///< of interreflection, that were worked out
   std::vector<std::string> lights;  ///< that were baked
 };
 
 struct BakedScene {
   /// Instances have become meshes of their own, whose second texture coordinates are their places in the light maps;
-  /// materials have light maps (LightMap), and occlusion textures where it was looked for; baked lights are gone. An instant:
+  /// materials have light maps (LightMap) or shine, and occlusion textures where it was looked for; baked lights are gone. An instant:
   /// without clips. scene.warnings has what could not be baked.
   Scene scene;
   BakeReport report;
@@ -78,10 +97,14 @@ struct BakedScene {
 /// Bakes the direct light of a scene, as it is posed now, with shadows by rays. What arrives at a luxel is what
 /// Renderer would find there with ShadowTechnique::raytraced, whatever the lights' own techniques, n·l of the surface's
 /// normals included (normal maps not); with
-/// BakeSettings::interreflection, what surfaces reflect onto each other as well. Surfaces that are not baked, with a warning: those that wear skins or morph, or use
-/// their second texture coordinates for something else; those without a light to reflect (unlit) need none.
+/// BakeSettings::interreflection, what surfaces reflect onto each other as well. What wears a skin or morphs is baked as it
+/// stands, and stays so. Surfaces that are not baked, with a warning: those whose textures use both sets of texture coordinates,
+/// where the second does not serve for light maps; glass. Those without a light to reflect (unlit) need none.
 /// The result depends on neither threads nor instruction set. `progress` may stop it: Failure::cancelled.
-/// Errors: a faulty setting or scene, a light that is not there, more than kMostLuxels.
+/// Errors: a faulty setting or scene, a light that is not there, more than kMostLuxels or kMostLightMaps.
 Result<BakedScene> bake_light(Scene scene, const BakeSettings& settings, const Progress& progress = {});
+
+/// Removes the finished parts of any bake of this file, stopped ones of other settings too: after what was baked is written.
+void remove_bake_parts(const std::filesystem::path& work_file);
 
 }  // namespace laterna

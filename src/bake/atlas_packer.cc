@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -74,9 +73,13 @@ std::optional<PackedRectangles> pack_on(std::span<const glm::ivec2> sizes, std::
   PackedRectangles packed;
   packed.places.resize(sizes.size());
   std::vector<Skyline> skylines;
+  glm::ivec2 last_size(0);
+  std::size_t page = 0;
   for (const std::size_t i : order) {
     std::optional<glm::ivec2> corner;
-    std::size_t page = 0;
+    // Where one had no place, the next of the same size has none.
+    if (sizes[i] != last_size) page = 0;
+    last_size = sizes[i];
     for (; !corner; ++page) {
       if (page == skylines.size()) {
         if (page == max_pages) return std::nullopt;
@@ -96,7 +99,9 @@ std::optional<PackedRectangles> pack_on(std::span<const glm::ivec2> sizes, std::
 
 }  // namespace
 
-PackedRectangles pack_rectangles(std::span<const glm::ivec2> sizes, int gap, int max_side) {
+std::optional<PackedRectangles> pack_rectangles(std::span<const glm::ivec2> sizes, int gap, int max_side,
+                                                std::size_t max_pages) {
+  if (max_pages == 0) return std::nullopt;
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -106,9 +111,9 @@ PackedRectangles pack_rectangles(std::span<const glm::ivec2> sizes, int gap, int
   for (const glm::ivec2& size : sizes) area += std::int64_t{size.x} * size.y;
   for (int side = std::min(kLeastSide, max_side); side < max_side; side = std::min(2 * side, max_side)) {
     if (std::int64_t{side} * side < area) continue;
-    if (auto packed = pack_on(sizes, order, gap, side, 1)) return std::move(*packed);
+    if (auto packed = pack_on(sizes, order, gap, side, 1)) return packed;
   }
-  return *pack_on(sizes, order, gap, max_side, std::numeric_limits<std::size_t>::max());
+  return pack_on(sizes, order, gap, max_side, max_pages);
 }
 
 }  // namespace laterna::bake

@@ -6,17 +6,22 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
+#include <span>
+#include <string>
 
+#include "bake/bake_notes.h"
+#include "bake/baked_pages.h"
 #include "bake/bounced_light.h"
 #include "bake/light_map_layout.h"
+#include "bake/luxel_padding.h"
 #include "bake/own_frame.h"
 #include "bake/page_light.h"
-#include "bake/strip_files.h"
+#include "bake/part_files.h"
+#include "bake/seen_light.h"
+#include "bake/still_meshes.h"
 #include "base/refuse.h"
 #include "base/stopwatch.h"
 #include "base/without_exceptions.h"
-#include "frame/place_lights.h"
 #include "render/scene_defaults.h"
 #include "render/settings_check.h"
 #include "scene/gltf_writer.h"
@@ -45,6 +50,8 @@ Result<void> check(const BakeSettings& s) {
   if (!(s.occlusion_distance > 0))
     return refuse(
         fmt::format("occlusion_distance: expected metres greater than 0, got {}", s.occlusion_distance));
+  if (!(s.exposure >= 0 && std::isfinite(s.exposure)))
+    return refuse(fmt::format("exposure: expected a factor of 0 (automatic) or more, got {}", s.exposure));
   return render::check_options(s.options);
 }
 
@@ -74,53 +81,6 @@ void warn_of_lights_left(Scene& scene) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- what comes out
-
-constexpr Sampler kLuxels = {Wrap::clamp, Wrap::clamp, Filter::linear, Filter::linear, MipFilter::none};
-
-Texture texture_of(int picture) {
-  Texture texture;
-  texture.picture = picture;
-  texture.sampler = kLuxels;
-  texture.uv_set = 1;
-  return texture;
-}
-
-struct PagePictures {
-  std::shared_ptr<Image> front, back, occlusion;
-};
-
-int add_picture(Scene& scene, std::string name, std::shared_ptr<const Image> pixels) {
-  if (pixels == nullptr) return -1;
-  Picture picture;
-  picture.name = std::move(name);
-  picture.pixels = std::move(pixels);
-  scene.pictures.push_back(std::move(picture));
-  return static_cast<int>(scene.pictures.size()) - 1;
-}
-
-// Lights that were baked are taken out, unless surfaces show their slides as paint: these stay, and are off.
-void remove_lights(Scene& scene, const std::vector<bool>& is_baked) {
-  const std::vector<int> decals = frame::decal_lights(scene);
-  std::vector<int> new_index(scene.lights.size(), -1);
-  std::vector<Light> kept;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    const bool is_paint = std::ranges::find(decals, static_cast<int>(i)) != decals.end();
-    if (is_baked[i] && !is_paint) continue;
-    if (is_baked[i]) scene.lights[i].enabled = false;
-    new_index[i] = static_cast<int>(kept.size());
-    kept.push_back(std::move(scene.lights[i]));
-  }
-  scene.lights = std::move(kept);
-  const auto renumber = [&](int& light) {
-    if (light >= 0) light = new_index[static_cast<std::size_t>(light)];
-  };
-  for (Node& node : scene.nodes) renumber(node.light);
-  for (Material& material : scene.materials) {
-    for (SurfaceLayer& layer : material.layers) renumber(layer.projector);
-  }
-}
-
 class Baker {
  public:
   Baker(Scene scene, const BakeSettings& settings, const Progress& progress)
@@ -136,6 +96,7 @@ class Baker {
     Result<std::vector<bool>> chosen = choose_lights(scene_, settings_.lights);
     if (!chosen) return tl::unexpected(std::move(chosen.error()));
     is_baked_ = std::move(*chosen);
+    begin(BakeStage::layout);
     prepare();
     Result<LightMapLayout> layout = lay_out(scene_, settings_);
     if (!layout) return tl::unexpected(std::move(layout.error()));
@@ -148,12 +109,23 @@ class Baker {
   }
 
  private:
+  void begin(BakeStage stage) const {
+    if (settings_.stage_begins) settings_.stage_begins(stage);
+  }
+
   void prepare() {
     if (settings_.lights.empty()) warn_of_lights_left(scene_);
+    note_what_is_lost(scene_, is_baked_, settings_);
     if (!scene_.clips.empty()) {
       scene_.clips.clear();
       scene_.warnings.push_back({{}, "clips", "light maps hold one instant: animation is left out"});
     }
+    for (const std::string& name : stand_still(scene_))
+      scene_.warnings.push_back(
+          {{},
+           fmt::format("object \"{}\"", name),
+           fmt::format("wears a skin or morphs: baked as it stands at {:g} s, and so it stays",
+                       settings_.options.time)});
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
       was_enabled_.push_back(scene_.lights[i].enabled);
       scene_.lights[i].enabled = is_baked_[i];
@@ -168,8 +140,7 @@ class Baker {
     const Result<GltfFiles> files = make_gltf(scene_, "key.glb", {});
     if (!files) return tl::unexpected(files.error());
     for (const gltf::BesideFile& file : files->files) key.add(std::span<const std::byte>(file.bytes));
-    for (const int number :
-         {settings_.samples, settings_.light_samples, settings_.occlusion_rays, settings_.padding})
+    for (const int number : {settings_.samples, settings_.light_samples, settings_.occlusion_rays})
       key.add(static_cast<std::uint64_t>(number));
     for (const double number : {settings_.density, settings_.occlusion_distance, settings_.options.time})
       key.add(std::as_bytes(std::span(&number, 1)));
@@ -182,28 +153,24 @@ class Baker {
     const frame::Frame* frame = &(*own)->frame;
     const Result<image::ContentKey> content = key();
     if (!content) return tl::unexpected(content.error());
-    StripFiles files(settings_.work_file, *content, settings_.resume);
+    const PartFiles files(settings_.work_file, *content, settings_.resume);
     const auto rays = std::make_shared<const trace::RayScene>(*frame);
     const DirectLight direct(*frame, rays, settings_.light_samples, set_);
     const OcclusionRays occlusion(*rays, settings_.occlusion_rays, settings_.occlusion_distance);
     std::size_t steps = 0;
-    for (const LightMapPage& page : layout_.pages) {
-      const glm::ivec2 tiles = (page.size + kTileSide - 1) / kTileSide;
-      steps += static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
-    }
-    const double direct_part = settings_.interreflection ? kDirectPart : 1;
+    for (const LightMapPage& page : layout_.pages) steps += tiles_of(page.size);
+    const double direct_part = direct_part_of_work(direct.light_count());
     const Progress direct_progress = part_of_progress(0, direct_part);
     render::ProgressReport progress(direct_progress, steps);
-    std::vector<std::unique_ptr<PageTriangles>> pages;
+    begin(BakeStage::direct_light);
     for (std::size_t page = 0; page < layout_.pages.size(); ++page) {
       std::vector<bool> is_on_page;
       for (const int other : layout_.page_of_material) is_on_page.push_back(other == static_cast<int>(page));
       is_on_page.push_back(false);  // glTF's default material
-      pages.push_back(
-          std::make_unique<PageTriangles>(*frame, is_on_page, layout_.pages[page].size, settings_.padding));
+      triangles_.push_back(std::make_unique<PageTriangles>(*frame, is_on_page, layout_.pages[page].size));
       const PageContext context = {*frame,
                                    *rays,
-                                   *pages.back(),
+                                   *triangles_.back(),
                                    direct,
                                    settings_.occlusion_rays > 0 ? &occlusion : nullptr,
                                    {settings_.samples, 1 / settings_.density},
@@ -214,15 +181,26 @@ class Baker {
         return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
     }
     if (settings_.interreflection) {
-      if (Result<void> added = add_bounces(*frame, *rays, pages, part_of_progress(direct_part, 1)); !added)
+      begin(BakeStage::reflected_light);
+      if (Result<void> added = add_bounces(*frame, *rays, part_of_progress(direct_part, 1), files); !added)
         return added;
     }
-    files.remove();
+    if (settings_.into == BakeInto::emissive)
+      report_.exposure = make_visible(*frame, triangles_,
+                                      {scene_.ambient, 1 / settings_.density, settings_.exposure}, pages_);
+    continue_all();
     return {};
   }
 
-  // Of the whole work, roughly, where there is interreflection.
-  static constexpr double kDirectPart = 0.3;
+  // By the number of rays for each luxel.
+  [[nodiscard]] double direct_part_of_work(std::size_t lights) const {
+    if (!settings_.interreflection) return 1;
+    const double direct = settings_.samples * settings_.samples *
+                          static_cast<double>(lights + static_cast<std::size_t>(settings_.occlusion_rays));
+    // What rays meet is looked up as well.
+    const double reflected = 4.0 * settings_.interreflection->rays;
+    return direct / (direct + reflected);
+  }
 
   // Empty where nobody asks.
   [[nodiscard]] Progress part_of_progress(double from, double to) const {
@@ -230,38 +208,40 @@ class Baker {
     return [this, from, to](double done) { return progress_callback_(from + (to - from) * done); };
   }
 
-  Result<void> add_bounces(const frame::Frame& frame, const trace::RayScene& rays,
-                           const std::vector<std::unique_ptr<PageTriangles>>& pages,
-                           const Progress& progress) {
+  Result<void> add_bounces(const frame::Frame& frame, const trace::RayScene& rays, const Progress& progress,
+                           const PartFiles& files) {
     std::vector<LitPage> lit;
-    for (std::size_t i = 0; i < pages.size(); ++i)
-      lit.push_back({pages[i].get(), pictures_[i].front.get(), pictures_[i].back.get()});
-    const Result<BouncedLight> bounced = add_bounced_light(frame, rays, lit, 1 / settings_.density,
-                                                           *settings_.interreflection, pool_, progress);
+    for (std::size_t i = 0; i < pages_.size(); ++i)
+      lit.push_back({triangles_[i].get(), pages_[i].front.get(), pages_[i].back.get()});
+    const Result<BouncedLight> bounced = add_bounced_light(
+        frame, rays, lit, 1 / settings_.density, *settings_.interreflection, pool_, progress, files);
     if (!bounced) return tl::unexpected(bounced.error());
     report_.bounces = bounced->bounces;
     return {};
   }
 
-  void light_page(std::size_t page, const PageContext& context, StripFiles& files) {
+  void light_page(std::size_t page, const PageContext& context, const PartFiles& files) {
     const glm::ivec2 size = layout_.pages[page].size;
-    PagePictures& pictures = pictures_.emplace_back();
+    BakedPage& pictures = pages_.emplace_back();
     pictures.front = std::make_shared<Image>(size.x, size.y, 3, PixelType::f32, Transfer::linear);
     if (layout_.pages[page].has_back)
       pictures.back = std::make_shared<Image>(size.x, size.y, 3, PixelType::f32, Transfer::linear);
     if (context.occlusion != nullptr)
       pictures.occlusion = std::make_shared<Image>(size.x, size.y, 1, PixelType::u8, Transfer::linear);
+    pictures.is_found.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     std::size_t row = 0;
     for (std::size_t strip = 0; strip < strip_count(size) && !context.progress.is_cancelled(); ++strip) {
       StripValues values(strip_size(size, strip), layout_.pages[page].has_back, context.occlusion != nullptr);
       ++report_.strips;
-      if (files.find(page, strip, values.numbers)) {
+      const PartFiles::Values bytes = {std::as_writable_bytes(std::span(values.numbers))};
+      const std::string part = fmt::format("{}-{}", page, strip);
+      if (files.find(part, bytes)) {
         ++report_.resumed_strips;
         context.progress.advance(tiles_of(values.size));
       } else {
         light_strip(context, strip, values);
         if (context.progress.is_cancelled()) return;
-        files.keep(page, strip, values.numbers);
+        files.keep(part, bytes);
       }
       store(values, row, pictures);
       row += static_cast<std::size_t>(values.size.y);
@@ -273,48 +253,36 @@ class Baker {
     return static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
   }
 
-  void store(const StripValues& values, std::size_t row, PagePictures& pictures) {
-    const std::size_t first = row * static_cast<std::size_t>(values.size.x);
-    std::ranges::copy(values.front,
-                      pictures.front->values<float>().begin() + 3 * static_cast<std::ptrdiff_t>(first));
+  void store(const StripValues& values, std::size_t row, BakedPage& pictures) {
+    const auto first = static_cast<std::ptrdiff_t>(row * static_cast<std::size_t>(values.size.x));
+    std::ranges::copy(values.front, pictures.front->values<float>().begin() + 3 * first);
     if (pictures.back != nullptr)
-      std::ranges::copy(values.back,
-                        pictures.back->values<float>().begin() + 3 * static_cast<std::ptrdiff_t>(first));
+      std::ranges::copy(values.back, pictures.back->values<float>().begin() + 3 * first);
     for (std::size_t i = 0; i < values.openness.size(); ++i)
-      pictures.occlusion->values<std::uint8_t>()[first + i] =
+      pictures.occlusion->values<std::uint8_t>()[static_cast<std::size_t>(first) + i] =
           static_cast<std::uint8_t>(values.openness[i] * 255.0F + 0.5F);
+    for (std::size_t i = 0; i < values.is_found.size(); ++i)
+      pictures.is_found[static_cast<std::size_t>(first) + i] = values.is_found[i] > 0 ? 1 : 0;
     report_.lit_luxels += static_cast<std::size_t>(std::ranges::count(values.is_found, 1.0F));
   }
 
-  // -------------------------------------------------------------------------------------------- the scene with its light
+  void continue_all() {
+    for (const BakedPage& page : pages_) {
+      std::vector<Image*> pictures;
+      for (Image* picture : {page.front.get(), page.back.get(), page.occlusion.get()}) {
+        if (picture != nullptr) pictures.push_back(picture);
+      }
+      continue_surfaces(pictures, page.is_found, settings_.padding);
+    }
+  }
 
   void finish() {
     fill_report();
-    std::vector<LightMap> maps;
-    std::vector<int> occlusion;
-    for (std::size_t page = 0; page < pictures_.size(); ++page) {
-      PagePictures& p = pictures_[page];
-      LightMap map;
-      map.front = texture_of(add_picture(scene_, fmt::format("light map {}", page), std::move(p.front)));
-      if (p.back != nullptr)
-        map.back =
-            texture_of(add_picture(scene_, fmt::format("light map {}, back", page), std::move(p.back)));
-      maps.push_back(map);
-      occlusion.push_back(add_picture(scene_, fmt::format("occlusion {}", page), std::move(p.occlusion)));
-    }
-    for (std::size_t m = 0; m < layout_.page_of_material.size(); ++m) {
-      if (layout_.page_of_material[m] < 0) continue;
-      const auto page = static_cast<std::size_t>(layout_.page_of_material[m]);
-      Material& material = scene_.materials[m];
-      material.light_map = maps[page];
-      if (occlusion[page] < 0) continue;
-      if (material.occlusion_texture.is_set()) {
-        scene_.warnings.push_back({{},
-                                   fmt::format("material \"{}\"", material.name),
-                                   "has an occlusion texture of its own, which stays"});
-      } else {
-        material.occlusion_texture = texture_of(occlusion[page]);
-      }
+    if (settings_.into == BakeInto::emissive) {
+      show_as_emission(scene_, layout_, pages_);
+      scene_.ambient = glm::vec3(0);  // is in what surfaces show
+    } else {
+      show_as_light_maps(scene_, layout_, pages_);
     }
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) scene_.lights[i].enabled = was_enabled_[i];
     if (!settings_.keep_lights) remove_lights(scene_, is_baked_);
@@ -326,7 +294,9 @@ class Baker {
       report_.pages.push_back({page.size.x, page.size.y, page.has_back});
       const auto luxels = static_cast<std::size_t>(page.size.x) * static_cast<std::size_t>(page.size.y);
       report_.luxels += luxels;
-      report_.bytes += luxels * ((page.has_back ? 24U : 12U) + (settings_.occlusion_rays > 0 ? 1U : 0U));
+      const std::size_t of_color = settings_.into == BakeInto::emissive ? 3 : 12;
+      const bool has_occlusion = settings_.occlusion_rays > 0 && settings_.into == BakeInto::light_maps;
+      report_.bytes += luxels * ((page.has_back ? 2 : 1) * of_color + (has_occlusion ? 1 : 0));
     }
     report_.surfaces = layout_.surfaces;
     report_.charts = layout_.charts;
@@ -342,7 +312,8 @@ class Baker {
   InstructionSet set_;
   std::vector<bool> is_baked_, was_enabled_;  // by light
   LightMapLayout layout_;
-  std::vector<PagePictures> pictures_;
+  std::vector<std::unique_ptr<PageTriangles>> triangles_;  // by page
+  std::vector<BakedPage> pages_;
   BakeReport report_;
 };
 

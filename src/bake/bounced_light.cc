@@ -61,11 +61,11 @@ class LuxelList {
 Result<BouncedLight> add_bounced_light(const frame::Frame& frame, const trace::RayScene& rays,
                                        std::span<const LitPage> pages, double luxel_side,
                                        const RadiositySettings& settings, const TaskPool& pool,
-                                       const Progress& progress) {
+                                       const Progress& progress, const PartFiles& parts) {
   LuxelList list(frame, luxel_side);
   for (const LitPage& page : pages) list.add(page);
   Result<Interreflection> found =
-      interreflect(frame, rays, list.luxels(), list.sources(), settings, pool, progress);
+      interreflect(frame, rays, list.luxels(), list.sources(), settings, pool, progress, parts);
   if (!found) return tl::unexpected(std::move(found.error()));
   list.add_to_pictures(found->irradiance);
   return BouncedLight{found->bounces, list.luxels().size()};

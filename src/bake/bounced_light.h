@@ -22,10 +22,10 @@ struct BouncedLight {
   std::size_t luxels = 0;  ///< both sides of surfaces counted
 };
 
-/// Adds to every luxel what reaches it from others. `luxel_side`: metres. Errors: interreflect()'s.
+/// Adds to every luxel what reaches it from others. `luxel_side`: metres. `parts`: as of interreflect(). Errors: interreflect()'s.
 Result<BouncedLight> add_bounced_light(const frame::Frame& frame, const trace::RayScene& rays,
                                        std::span<const LitPage> pages, double luxel_side,
                                        const RadiositySettings& settings, const TaskPool& pool,
-                                       const Progress& progress);
+                                       const Progress& progress, const PartFiles& parts);
 
 }  // namespace laterna::bake

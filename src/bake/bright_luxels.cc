@@ -1,7 +1,6 @@
 #include "bake/bright_luxels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -24,6 +23,10 @@ constexpr float kLeastAgreement = 0.97F;
 // fewer where they bring less: penumbrae of lamps are smooth, and of a thousand faint luxels each needs one.
 constexpr float kRaysForEven = 16;
 constexpr float kMostRays = 64;
+// Boxes that are summed one by one, those that bring most first: where much is bright there would be thousands. What remains
+// is sampled.
+constexpr std::size_t kMostBoxes = 128;
+constexpr float kLeastSample = 2;
 
 float strongest(const glm::vec3& light) { return std::max(light.x, std::max(light.y, light.z)); }
 
@@ -166,30 +169,72 @@ void BrightLuxels::add(Sum& sum, const Shine& shine, Seen seen) const {
   sum.irradiance += unshadowed * (arrived / static_cast<float>(rays));
 }
 
+// A sample of a node's luxels, each with the form factor of its own.
+void BrightLuxels::add_sample(Sum& sum, std::uint32_t node) const {
+  const Luxel& receiver = tree_.luxels()[sum.receiver];
+  const Shine& shine = shine_[node];
+  const float wanted = std::ceil(bound_at(sum.receiver, node) / most_even_ * kRaysForEven);
+  const int rays = static_cast<int>(std::clamp(wanted, kLeastSample, kMostRays));
+  glm::vec3 arrived(0);
+  for (int ray = 0; ray < rays; ++ray) {
+    const std::uint32_t place = pick(node, (ray + shift_of(sum.receiver).u) / rays);
+    if (is_near(sum.receiver, place)) continue;
+    const Luxel& luxel = tree_.luxels()[place];
+    const glm::vec3 way = luxel.position_ws - receiver.position_ws;
+    const float squared = glm::dot(way, way);
+    const glm::vec3 direction = way / std::sqrt(squared);
+    const float factor = form_factor(luxel.area, glm::dot(receiver.normal_ws, direction),
+                                     -glm::dot(luxel.normal_ws, direction), squared);
+    if (factor == 0) continue;
+    arrived += exitance_[place] * (factor / (sum_of(exitance_[place]) * luxel.area)) *
+               sum.rays.transmittance(sum.receiver, place, sum.scratch);
+  }
+  sum.irradiance += arrived * (shine.strength / static_cast<float>(rays));
+}
+
+float BrightLuxels::bound_at(std::uint32_t receiver, std::uint32_t node) const {
+  const LuxelNode& box = tree_.nodes()[node];
+  const glm::vec3& point = tree_.luxels()[receiver].position_ws;
+  const glm::vec3 outside = glm::max(glm::max(box.low_ws - point, point - box.high_ws), glm::vec3(0));
+  const Shine& shine = shine_[node];
+  return shine.strength / (static_cast<float>(kPi) * glm::dot(outside, outside) + shine.largest);
+}
+
 glm::vec3 BrightLuxels::irradiance_at(std::uint32_t receiver, const LuxelRays& rays,
                                       LuxelRays::Scratch& scratch) const {
   Sum sum = {receiver, rays, scratch};
   if (most_even_ == 0) return sum.irradiance;
   const Luxel& luxel = tree_.luxels()[receiver];
-  std::array<std::uint32_t, 64> open;  // a balanced tree of 2³¹ luxels is 29 deep
-  std::size_t count = 0;
-  open[count++] = 0;
-  while (count > 0) {
-    const std::uint32_t index = open[--count];
-    const LuxelNode& node = tree_.nodes()[index];
-    const Shine& shine = shine_[index];
+  auto& open = scratch.boxes;
+  open.clear();
+  const auto push = [&](std::uint32_t node) {
+    const Shine& shine = shine_[node];
     if (shine.strength == 0 || is_below(shine.low_ws, shine.high_ws, luxel.position_ws, luxel.normal_ws))
-      continue;
+      return;
+    open.emplace_back(bound_at(receiver, node), node);
+    std::ranges::push_heap(open);
+  };
+  push(0);
+  for (std::size_t taken = 0; !open.empty();) {
+    std::ranges::pop_heap(open);
+    const std::uint32_t index = open.back().second;
+    open.pop_back();
+    const LuxelNode& node = tree_.nodes()[index];
     if (can_be_one(sum, index)) {
-      add(sum, shine, [&](double number) { return pick(index, number); });
+      add(sum, shine_[index], [&](double number) { return pick(index, number); });
+      ++taken;
     } else if (node.is_leaf()) {
       for (std::uint32_t place = node.first; place < node.last; ++place) {
-        if (is_bright(place) && !is_near(receiver, place))
-          add(sum, shine_of(place), [&](double) { return place; });
+        if (!is_bright(place) || is_near(receiver, place)) continue;
+        add(sum, shine_of(place), [&](double) { return place; });
+        ++taken;
       }
+    } else if (taken + open.size() >= kMostBoxes) {
+      add_sample(sum, index);
+      ++taken;
     } else {
-      open[count++] = node.second;
-      open[count++] = index + 1;
+      push(index + 1);
+      push(node.second);
     }
   }
   return sum.irradiance;

@@ -13,7 +13,7 @@
 namespace laterna::bake {
 
 /// Tells luxels that give off more than twice the mean from the rest, which rays find well. Sums of the bright ones are taken
-/// over a tree as lightcuts do (Walter and others, Lightcuts, 2005), with the form factor from a point to a disc,
+/// over a tree as lightcuts do (Walter and others, Lightcuts, 2005: what brings most is opened first, up to a number of boxes), with the form factor from a point to a disc,
 /// A cos θ cos θ' / (π d² + A) (Wallace, Elmquist and Haines, A ray tracing algorithm for progressive radiosity, 1989). That
 /// factor is good from a few widths of the luxel on. What is nearer is left to rays, which meet it often.
 class BrightLuxels {
@@ -51,6 +51,9 @@ class BrightLuxels {
   [[nodiscard]] Shine shine_below(std::uint32_t node) const;
   template <class Seen>
   void add(Sum& sum, const Shine& shine, Seen seen) const;
+  void add_sample(Sum& sum, std::uint32_t node) const;
+  // More than a node can bring, all channels together.
+  [[nodiscard]] float bound_at(std::uint32_t receiver, std::uint32_t node) const;
   [[nodiscard]] bool can_be_one(const Sum& sum, std::uint32_t node) const;
   [[nodiscard]] std::uint32_t pick(std::uint32_t node, double number) const;
 

@@ -3,17 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "bake/atlas_packer.h"
 #include "bake/charts.h"
+#include "bake/laid_out_surfaces.h"
 #include "bake/own_meshes.h"
 #include "base/refuse.h"
+#include "laterna/material_lobes.h"
+#include "laterna/relief.h"
 #include "scene/surface_attributes.h"
 
 namespace laterna::bake {
@@ -21,10 +24,6 @@ namespace {
 
 // Squares per luxel's side in which charts are looked at for overlap.
 constexpr double kOverlapSquares = 2;
-
-struct SurfaceOfMesh {
-  std::size_t mesh, primitive;
-};
 
 // What is packed as one: a chart of a primitive, or all that shares a file's own second texture coordinates.
 struct Piece {
@@ -69,21 +68,23 @@ double area_of(std::span<const glm::dvec2> corners) {
   return sum;
 }
 
+bool uses(const Material& material, int uv_set) {
+  const auto does = [uv_set](const Texture& texture) { return texture.is_set() && texture.uv_set == uv_set; };
+  return std::ranges::any_of(textures_of(material), [&](auto t) { return does(*t); }) ||
+         (material.relief != nullptr && does(material.relief->texture));
+}
+
 class Layout {
  public:
-  Layout(Scene& scene, const BakeSettings& settings) : scene_(scene), settings_(settings) {}
+  Layout(Scene& scene, const BakeSettings& settings) : scene_(scene), settings_(settings), surfaces_(scene) {}
 
   Result<LightMapLayout> make() {
     for (const PlacedMesh& placed : take_apart(scene_)) {
-      if (!placed.is_rigid) {
-        warn(placed.name, "wears a skin or morphs: it is not baked");
-        continue;
-      }
       if (Result<void> added = add_mesh(placed); !added) return tl::unexpected(std::move(added.error()));
     }
     layout_.charts = pieces_.size();
     if (Result<void> packed = pack(); !packed) return tl::unexpected(std::move(packed.error()));
-    find_materials();
+    layout_.page_of_material = surfaces_.make();
     return std::move(layout_);
   }
 
@@ -103,21 +104,31 @@ class Layout {
 
   Result<void> add_mesh(const PlacedMesh& placed) {
     std::vector<SurfaceOfMesh> surfaces;
+    bool has_shared = false;
     for (std::size_t i = 0; i < scene_.meshes[placed.mesh].primitives.size(); ++i) {
-      const Primitive& primitive = scene_.meshes[placed.mesh].primitives[i];
+      Primitive& primitive = scene_.meshes[placed.mesh].primitives[i];
       const Material& material = material_of(primitive);
-      if (corner_count(primitive) == 0 || material.unlit) continue;
-      const std::vector<const Texture*> textures = textures_of(material);
-      if (std::ranges::any_of(textures, [](auto t) { return t->is_set() && t->uv_set == 1; })) {
-        warn(placed.name, "its textures use the second texture coordinates: it is not baked");
-        continue;
-      }
+      if (corner_count(primitive) == 0 || !can_have_light_map(material)) continue;
       surfaces.push_back({placed.mesh, i});
+      if (!uses(material, 1)) continue;
+      const bool is_shared = uses(material, 0);
+      has_shared = has_shared || is_shared;
+      surfaces_.set_use(surfaces.back(), is_shared ? SecondCoordinates::shared : SecondCoordinates::moved);
+      if (!is_shared) primitive.uv[0] = primitive.uv[1];
     }
     layout_.surfaces += surfaces.size();
-    if (!settings_.unwrap_all && add_own_coordinates(placed, surfaces)) return {};
+    if ((has_shared || !settings_.unwrap_all) && add_own_coordinates(placed, surfaces)) return {};
     for (const SurfaceOfMesh& surface : surfaces) {
-      if (Result<void> added = add_charts(placed, surface); !added) return added;
+      const Material& material = material_of(at(surface));
+      if (uses(material, 1) && uses(material, 0)) {
+        warn(
+            placed.name,
+            "its textures use both sets of texture coordinates, of which the second does not serve for light "
+            "maps: it is not baked");
+        --layout_.surfaces;
+      } else if (Result<void> added = add_charts(placed, surface); !added) {
+        return added;
+      }
     }
     return {};
   }
@@ -209,18 +220,25 @@ class Layout {
         sizes.push_back(pieces_[i].luxels);
       }
       if (sizes.empty()) continue;
-      const PackedRectangles packed = pack_rectangles(sizes, settings_.padding, settings_.max_size);
       const std::size_t first = layout_.pages.size();
-      for (const glm::ivec2& size : packed.pages) layout_.pages.push_back({size, is_double_sided});
-      for (std::size_t i = 0; i < chosen.size(); ++i)
-        set_coordinates(pieces_[chosen[i]], first + packed.places[i].page, packed.places[i].corner);
+      const std::optional<PackedRectangles> packed =
+          pack_rectangles(sizes, settings_.padding, settings_.max_size, kMostLightMaps - first);
+      if (!packed)
+        return refuse(
+            fmt::format("max_size: the light maps would be more than {} of {} luxels a side: ask for larger "
+                        "ones, or for a lower density",
+                        kMostLightMaps, settings_.max_size));
+      for (const glm::ivec2& size : packed->pages) layout_.pages.push_back({size, is_double_sided});
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
+        set_coordinates(pieces_[chosen[i]], first + packed->places[i].page, packed->places[i].corner);
+        pieces_[chosen[i]].chart = {};
+      }
     }
     std::uint64_t total = 0;
     for (const LightMapPage& page : layout_.pages)
       total += static_cast<std::uint64_t>(page.size.x) * static_cast<std::uint64_t>(page.size.y);
     if (total > kMostLuxels) return refuse_luxels(total);
     layout_.used = total == 0 ? 0 : used_luxels_ / static_cast<double>(total);
-    split_vertices();
     return {};
   }
 
@@ -239,42 +257,33 @@ class Layout {
     return matrices;
   }
 
-  // The second texture coordinates of a primitive's corners, and the page of each.
-  struct Coordinates {
-    std::vector<glm::vec2> uv;
-    std::vector<std::uint32_t> piece;  // what was laid out as one
-    std::size_t page = 0;
-  };
-
   void set_coordinates(const Piece& piece, std::size_t page, const glm::ivec2& corner) {
     const glm::dvec2 size(layout_.pages[page].size);
-    ++piece_number_;
+    surfaces_.begin_piece({piece.from_flat / size, (glm::dvec2(corner) + 1.0) / size});
     for (const SurfaceOfMesh& surface : piece.surfaces) {
       const Primitive& primitive = at(surface);
-      // A primitive whose charts lie on several pages becomes several.
-      Coordinates& coordinates = coordinates_[{surface.mesh, surface.primitive, page}];
-      coordinates.page = page;
-      coordinates.uv.resize(corner_count(primitive));
-      coordinates.piece.resize(corner_count(primitive), 0);
       const glm::dmat4& world_from_mesh = world_from_mesh_[surface.mesh];
-      const auto set = [&](std::size_t c) {
-        const std::uint32_t vertex = vertex_of(primitive, c);
-        glm::dvec2 luxel;
-        if (piece.chart.triangles.empty()) {
-          luxel = glm::dvec2(primitive.uv[1][vertex]) * piece.from_flat + 1.0;
-        } else {
-          const glm::dvec3 point(world_from_mesh * glm::dvec4(glm::dvec3(primitive.positions[vertex]), 1));
-          luxel = (piece.chart.flat(point) - piece.chart.low) * piece.from_flat + 0.5;
-        }
-        coordinates.uv[c] = glm::vec2((luxel + glm::dvec2(corner)) / size);
-        coordinates.piece[c] = piece_number_;
+      const auto place_of = [&](const glm::dvec3& point, std::size_t c) {
+        const glm::dvec2 luxel =
+            piece.chart.triangles.empty()
+                ? glm::dvec2(primitive.uv[1][vertex_of(primitive, c)]) * piece.from_flat + 1.0
+                : (piece.chart.flat(point) - piece.chart.low) * piece.from_flat + 0.5;
+        return glm::vec2((luxel + glm::dvec2(corner)) / size);
       };
-      const auto set_triangle = [&](std::size_t t) {
-        for (std::size_t k = 0; k < 3; ++k) set(3 * t + k);
-        measure(primitive, world_from_mesh, coordinates, t, size);
+      const auto set_triangle = [&](std::uint32_t t) {
+        std::array<glm::dvec3, 3> points;
+        std::array<glm::vec2, 3> places;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::size_t c = 3 * std::size_t{t} + k;
+          const glm::dvec3 position(primitive.positions[vertex_of(primitive, c)]);
+          points[k] = glm::dvec3(world_from_mesh * glm::dvec4(position, 1));
+          places[k] = place_of(points[k], c);
+        }
+        surfaces_.add(surface, page, t, places);
+        measure(points, places, size);
       };
       if (piece.chart.triangles.empty()) {
-        for (std::size_t t = 0; t < corner_count(primitive) / 3; ++t) set_triangle(t);
+        for (std::uint32_t t = 0; t < corner_count(primitive) / 3; ++t) set_triangle(t);
       } else {
         for (const std::uint32_t t : piece.chart.triangles) set_triangle(t);
       }
@@ -282,15 +291,10 @@ class Layout {
   }
 
   // Luxels per metre are the singular values of the map from a triangle's plane to the page.
-  void measure(const Primitive& primitive, const glm::dmat4& world_from_mesh, const Coordinates& coordinates,
-               std::size_t t, const glm::dvec2& size) {
-    glm::dvec3 p[3];
-    glm::dvec2 q[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const glm::dvec3 position(primitive.positions[vertex_of(primitive, 3 * t + k)]);
-      p[k] = glm::dvec3(world_from_mesh * glm::dvec4(position, 1));
-      q[k] = glm::dvec2(coordinates.uv[3 * t + k]) * size;
-    }
+  void measure(const std::array<glm::dvec3, 3>& p, const std::array<glm::vec2, 3>& places,
+               const glm::dvec2& size) {
+    std::array<glm::dvec2, 3> q;
+    for (std::size_t k = 0; k < 3; ++k) q[k] = glm::dvec2(places[k]) * size;
     const glm::dvec2 qu = q[1] - q[0], qv = q[2] - q[0];
     used_luxels_ += std::abs(qu.x * qv.y - qu.y * qv.x) / 2;
     const glm::dvec3 u = p[1] - p[0], v = p[2] - p[0];
@@ -309,109 +313,20 @@ class Layout {
     layout_.greatest_density = std::max(layout_.greatest_density, greatest);
   }
 
-  // -------------------------------------------------------------------------------------------- vertices
-
-  // Vertices at which charts meet become several; triangles without an area are left out.
-  void split_vertices() {
-    std::map<std::size_t, std::vector<Primitive>> primitives_of_mesh;
-    for (const auto& [place, coordinates] : coordinates_) {
-      const auto& [mesh, primitive, page] = place;
-      std::vector<Primitive>& made = primitives_of_mesh[mesh];
-      made.push_back(with_coordinates(scene_.meshes[mesh].primitives[primitive], coordinates));
-      page_of_primitive_[{mesh, made.size() - 1}] = page;
-    }
-    for (auto& [mesh, made] : primitives_of_mesh) {
-      std::vector<Primitive>& primitives = scene_.meshes[mesh].primitives;
-      for (std::size_t i = 0; i < primitives.size(); ++i) {
-        const auto first = coordinates_.lower_bound({mesh, i, 0});
-        const bool is_baked = first != coordinates_.end() && std::get<0>(first->first) == mesh &&
-                              std::get<1>(first->first) == i;
-        if (!is_baked) made.push_back(std::move(primitives[i]));
-      }
-      primitives = std::move(made);
-    }
-  }
-
-  static Primitive with_coordinates(const Primitive& from, const Coordinates& coordinates) {
-    std::vector<std::uint32_t> source;  // the vertex behind each new one
-    std::vector<glm::vec2> uv;
-    std::vector<std::uint32_t> indices;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
-    for (std::size_t c = 0; c < coordinates.piece.size(); ++c) {
-      if (coordinates.piece[c] == 0) continue;
-      const std::uint32_t vertex = vertex_of(from, c);
-      const auto [entry, is_new] =
-          known.try_emplace({vertex, coordinates.piece[c]}, static_cast<std::uint32_t>(source.size()));
-      if (is_new) {
-        source.push_back(vertex);
-        uv.push_back(coordinates.uv[c]);
-      }
-      indices.push_back(entry->second);
-    }
-    const auto pick = [&](const auto& values) {
-      std::decay_t<decltype(values)> picked;
-      if (values.empty()) return picked;
-      for (const std::uint32_t vertex : source) picked.push_back(values[vertex]);
-      return picked;
-    };
-    Primitive made;
-    made.positions = pick(from.positions);
-    made.normals = pick(from.normals);
-    made.tangents = pick(from.tangents);
-    made.uv = {pick(from.uv[0]), std::move(uv)};
-    made.colors = pick(from.colors);
-    made.indices = std::move(indices);
-    made.material = from.material;
-    return made;
-  }
-
-  // -------------------------------------------------------------------------------------------- materials
-
-  // A material whose surfaces lie on several pages becomes several of the same name.
-  void find_materials() {
-    layout_.page_of_material.assign(scene_.materials.size(), -1);
-    std::vector<bool> is_used_unbaked(scene_.materials.size(), false);
-    for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
-      for (std::size_t i = 0; i < scene_.meshes[m].primitives.size(); ++i) {
-        const int material = scene_.meshes[m].primitives[i].material;
-        if (material >= 0 && !page_of_primitive_.contains({m, i}))
-          is_used_unbaked[static_cast<std::size_t>(material)] = true;
-      }
-    }
-    std::map<std::pair<int, std::size_t>, int> material_of_page;
-    for (const auto& [place, page] : page_of_primitive_) {
-      Primitive& primitive = at({place.first, place.second});
-      const auto [entry, is_new] =
-          material_of_page.try_emplace({primitive.material, page}, primitive.material);
-      if (is_new) {
-        const int old = primitive.material;
-        const auto index = static_cast<std::size_t>(std::max(old, 0));
-        if (old < 0 || is_used_unbaked[index] || layout_.page_of_material[index] >= 0) {
-          entry->second = static_cast<int>(scene_.materials.size());
-          Material copy = material_of(primitive);
-          scene_.materials.push_back(std::move(copy));
-          layout_.page_of_material.push_back(-1);
-        }
-        layout_.page_of_material[static_cast<std::size_t>(entry->second)] = static_cast<int>(page);
-      }
-      primitive.material = entry->second;
-    }
-  }
-
   Scene& scene_;
   const BakeSettings& settings_;
   LightMapLayout layout_;
+  LaidOutSurfaces surfaces_;
   std::vector<Piece> pieces_;
-  std::uint32_t piece_number_ = 0;
   double used_luxels_ = 0;
   std::vector<glm::dmat4> world_from_mesh_;  // by mesh
-  std::map<std::tuple<std::size_t, std::size_t, std::size_t>, Coordinates>
-      coordinates_;  // mesh, primitive, page
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t>
-      page_of_primitive_;  // mesh and primitive, as made
 };
 
 }  // namespace
+
+bool can_have_light_map(const Material& material) {
+  return !material.unlit && (material.lobes == nullptr || material.lobes->transmission.factor <= 0);
+}
 
 Result<LightMapLayout> lay_out(Scene& scene, const BakeSettings& settings) {
   return Layout(scene, settings).make();

@@ -26,9 +26,13 @@ struct LightMapLayout {
   double least_density = 0, greatest_density = 0;
 };
 
+/// Whether its surfaces can show a light map: what has no light to reflect (unlit) and glass, which shows what lies behind,
+/// cannot.
+bool can_have_light_map(const Material& material);
+
 /// Changes the scene such that every instance of a mesh has a mesh of its own, and every primitive that is to be baked second
 /// texture coordinates that are its own place in a page, and a material that no primitive of another page has. Warnings are
-/// added to the scene's. Error: more than kMostLuxels, or a triangle that is too large for a page.
+/// added to the scene's. Error: more than kMostLuxels or kMostLightMaps, or a triangle that is too large for a page.
 Result<LightMapLayout> lay_out(Scene& scene, const BakeSettings& settings);
 
 }  // namespace laterna::bake

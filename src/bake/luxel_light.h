@@ -26,6 +26,9 @@ class DirectLight {
   /// Adds the irradiance of each receiver, n·l included, on its front or on its back.
   void add(std::span<const Receiver> receivers, bool of_back, std::span<glm::vec3> irradiance) const;
 
+  /// Points of lights that are asked for each receiver.
+  [[nodiscard]] std::size_t light_count() const { return lights_.size(); }
+
  private:
   struct BakedLight {
     shade::BoundLight bound;

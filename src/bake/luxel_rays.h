@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <utility>
 #include <vector>
 
 #include "bake/luxel_grids.h"
@@ -25,6 +26,7 @@ class LuxelRays {
     std::vector<trace::RayScene::Pane> panes;
     std::vector<shadow::PaneCrossing> crossings;
     std::vector<shadow::PaneColor> colors;
+    std::vector<std::pair<float, std::uint32_t>> boxes;  ///< of a sum over the tree that is under way
   };
 
   LuxelRays(const frame::Frame& frame, const trace::RayScene& rays, const LuxelTree& tree,

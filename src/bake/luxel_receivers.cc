@@ -107,11 +107,10 @@ class TileReceivers {
     std::stable_sort(inside_.begin(), inside_.end(),
                      [](const Receiver& a, const Receiver& b) { return a.luxel < b.luxel; });
     auto next = inside_.begin();
-    const double reach = page_.reach();
     for (std::uint32_t luxel = 0; luxel < kTileLuxels; ++luxel) {
       const auto first = next;
       while (next != inside_.end() && next->luxel == luxel) ++next;
-      if (nearest_[luxel] > reach * reach) continue;
+      if (nearest_[luxel] > kReadAtRim * kReadAtRim) continue;
       const Receiver& middle = middles_[luxel];
       const std::size_t before = receivers.size();
       for (auto it = first; it != next; ++it) {
@@ -122,11 +121,10 @@ class TileReceivers {
   }
 
   void take_middles(std::vector<Receiver>& receivers) {
-    const double reach = page_.reach();
     const auto least = static_cast<float>(kLeastArea * settings_.luxel_side * settings_.luxel_side);
     for (const Receiver& inside : inside_) middles_[inside.luxel].area += inside.area;
     for (std::uint32_t luxel = 0; luxel < kTileLuxels; ++luxel) {
-      if (nearest_[luxel] > reach * reach) continue;
+      if (nearest_[luxel] > kReadAtRim * kReadAtRim) continue;
       receivers.push_back(middles_[luxel]);
       receivers.back().area = std::max(receivers.back().area, least);
     }
@@ -147,8 +145,7 @@ class TileReceivers {
   }
 
   void find_nearest(const FlatTriangle& flat, const Patch& patch) {
-    const double reach = page_.reach();
-    for_luxels(flat.low() - reach, flat.high() + reach, [&](int x, int y) {
+    for_luxels(flat.low() - kReadAtRim, flat.high() + kReadAtRim, [&](int x, int y) {
       double squared = 0;
       const FlatWeights weights = flat.nearest({x + 0.5, y + 0.5}, squared);
       const std::uint32_t luxel = luxel_at(x, y);
@@ -191,9 +188,8 @@ class TileReceivers {
 
 }  // namespace
 
-PageTriangles::PageTriangles(const frame::Frame& frame, const std::vector<bool>& materials, glm::ivec2 size,
-                             int padding)
-    : size_(size), tiles_((size + kTileSide - 1) / kTileSide), reach_(padding + kReadAtRim) {
+PageTriangles::PageTriangles(const frame::Frame& frame, const std::vector<bool>& materials, glm::ivec2 size)
+    : size_(size), tiles_((size + kTileSide - 1) / kTileSide) {
   std::vector<TriangleId> all;
   for (std::size_t cluster = 0; cluster < frame.clusters.size(); ++cluster) {
     const Cluster& c = frame.clusters[cluster];
@@ -205,9 +201,9 @@ PageTriangles::PageTriangles(const frame::Frame& frame, const std::vector<bool>&
     const FlatTriangle flat(corners_on(frame, id, size_));
     const glm::dvec2 last(tiles_ - 1);
     const glm::ivec2 from(
-        glm::clamp(glm::floor((flat.low() - reach_) / double{kTileSide}), glm::dvec2(0), last));
+        glm::clamp(glm::floor((flat.low() - kReadAtRim) / double{kTileSide}), glm::dvec2(0), last));
     const glm::ivec2 to(
-        glm::clamp(glm::floor((flat.high() + reach_) / double{kTileSide}), glm::dvec2(0), last));
+        glm::clamp(glm::floor((flat.high() + kReadAtRim) / double{kTileSide}), glm::dvec2(0), last));
     for (int y = from.y; y <= to.y; ++y) {
       for (int x = from.x; x <= to.x; ++x) use(static_cast<std::size_t>(y * tiles_.x + x));
     }

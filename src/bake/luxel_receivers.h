@@ -26,21 +26,18 @@ struct Receiver {
   float area = 0;                    ///< of the surface that it stands for, in square metres
 };
 
-/// The triangles of a page, by the tiles that they and what continues them reach.
+/// The triangles of a page, by the tiles that they and the luxels read at their rims reach.
 class PageTriangles {
  public:
   /// `materials`: whether triangles of a material are on the page.
-  PageTriangles(const frame::Frame& frame, const std::vector<bool>& materials, glm::ivec2 size, int padding);
+  PageTriangles(const frame::Frame& frame, const std::vector<bool>& materials, glm::ivec2 size);
 
   [[nodiscard]] glm::ivec2 size() const { return size_; }
   [[nodiscard]] glm::ivec2 tiles() const { return tiles_; }
   [[nodiscard]] std::span<const TriangleId> at(glm::ivec2 tile) const;
-  /// Luxels beyond a surface's rim that continue it: those that are read at the rim, and the padding.
-  [[nodiscard]] double reach() const { return reach_; }
 
  private:
   glm::ivec2 size_, tiles_{0};
-  double reach_;
   std::vector<std::uint32_t> first_;  // by tile, and the end
   std::vector<TriangleId> triangles_;
 };

@@ -24,10 +24,6 @@ void make_nodes_of_instances(Scene& scene) {
   }
 }
 
-bool morphs(const Mesh& mesh) {
-  return std::ranges::any_of(mesh.primitives, [](const Primitive& p) { return !p.targets.empty(); });
-}
-
 }  // namespace
 
 std::vector<PlacedMesh> take_apart(Scene& scene) {
@@ -39,15 +35,13 @@ std::vector<PlacedMesh> take_apart(Scene& scene) {
     Node& node = scene.nodes[i];
     if (node.mesh < 0) continue;
     const auto mesh = static_cast<std::size_t>(node.mesh);
-    const bool is_rigid = node.skin < 0 && !morphs(scene.meshes[mesh]);
     if (is_taken[mesh]) {
       node.mesh = static_cast<int>(scene.meshes.size());
       Mesh copy = scene.meshes[mesh];
       scene.meshes.push_back(std::move(copy));
     }
     is_taken[mesh] = true;
-    if (node.visible)
-      placed.push_back({static_cast<std::size_t>(node.mesh), world_from_node[i], node.name, is_rigid});
+    if (node.visible) placed.push_back({static_cast<std::size_t>(node.mesh), world_from_node[i], node.name});
   }
   return placed;
 }

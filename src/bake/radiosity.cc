@@ -7,7 +7,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "bake/bright_luxels.h"
 #include "bake/luxel_rays.h"
@@ -32,6 +34,8 @@ constexpr float kMaxArea = 1e12F;
 // Of a normal's squared length, of single precision and somebody else's rounding.
 constexpr float kUnitError = 1e-3F;
 constexpr std::size_t kBatch = 64;
+// Kept as one file.
+constexpr std::size_t kPatchesPerPart = 64 * kBatch, kLuxelsPerPart = 512 * kBatch;
 
 glm::vec3 at_or_dark(std::span<const glm::vec3> light, std::size_t i) {
   return light.empty() ? glm::vec3(0) : light[i];
@@ -65,9 +69,11 @@ class Solver {
  public:
   Solver(const frame::Frame& frame, const trace::RayScene& rays, std::span<const Luxel> luxels,
          const LightSources& sources, const RadiositySettings& settings, const TaskPool& pool,
-         const Progress& progress)
+         const Progress& progress, const PartFiles& parts)
       : settings_(settings),
         pool_(pool),
+        seen_parts_(parts.with({double(settings.rays)})),
+        lit_parts_(parts.with({double(settings.rays), double(settings.bounces), double(settings.tolerance)})),
         tree_(frame, luxels),
         rays_(frame, rays, tree_, pool),
         patches_(luxels.size()),
@@ -108,12 +114,18 @@ class Solver {
   void look_around_all();
   void bounce_between_patches();
   [[nodiscard]] bool adds_little(double change, double last_change) const;
+  // Calls body(i, scratch) for i in [first, last).
   template <class Body>
-  void in_batches(std::size_t count, Body body);
+  void in_batches(std::size_t first, std::size_t last, Body body);
+  // The same of [0, count), part by part: values(first, last) are the bytes of what it works out, kept in files.
+  template <class Body, class Values>
+  void in_parts(const PartFiles& files, std::string_view name, std::size_t count, std::size_t part_size,
+                Body body, Values values);
   [[nodiscard]] std::vector<glm::vec3> irradiance_of_luxels();
 
   RadiositySettings settings_;
   const TaskPool& pool_;
+  PartFiles seen_parts_, lit_parts_;
   LuxelTree tree_;
   LuxelRays rays_;
   Patches patches_;
@@ -140,14 +152,31 @@ std::vector<glm::vec3> Solver::initial_exitance(const LuxelTree& tree, const Lig
 }
 
 template <class Body>
-void Solver::in_batches(std::size_t count, Body body) {
+void Solver::in_batches(std::size_t first, std::size_t last, Body body) {
   std::vector<LuxelRays::Scratch> scratch(static_cast<std::size_t>(pool_.threads()));
-  pool_.for_each(batches_of(count), [&](std::size_t batch, int worker) {
+  pool_.for_each(batches_of(last - first), [&](std::size_t batch, int worker) {
     if (progress_.is_cancelled()) return;
-    const std::size_t last = std::min(count, (batch + 1) * kBatch);
-    for (std::size_t i = batch * kBatch; i < last; ++i) body(i, scratch[static_cast<std::size_t>(worker)]);
+    const std::size_t end = std::min(last, first + (batch + 1) * kBatch);
+    for (std::size_t i = first + batch * kBatch; i < end; ++i)
+      body(i, scratch[static_cast<std::size_t>(worker)]);
     progress_.advance();
   });
+}
+
+template <class Body, class Values>
+void Solver::in_parts(const PartFiles& files, std::string_view name, std::size_t count, std::size_t part_size,
+                      Body body, Values values) {
+  for (std::size_t first = 0; first < count && !progress_.is_cancelled(); first += part_size) {
+    const std::size_t last = std::min(count, first + part_size);
+    const std::string part = fmt::format("{}-{}", name, first / part_size);
+    if (files.find(part, values(first, last))) {
+      progress_.advance(batches_of(last - first));
+      continue;
+    }
+    in_batches(first, last, body);
+    if (progress_.is_cancelled()) return;
+    files.keep(part, values(first, last));
+  }
 }
 
 // Finds what the rays of a patch end on, once for all bounces: these are its row of form factors.
@@ -233,9 +262,17 @@ std::vector<glm::vec3> Solver::irradiance_of_luxels() {
       irradiance[tree_.order()[place]] = patch_irradiance_[place];
     return irradiance;
   }
-  in_batches(irradiance.size(), [&](std::size_t place, LuxelRays::Scratch& scratch) {
-    irradiance[tree_.order()[place]] = gather_at(static_cast<std::uint32_t>(place), scratch);
-  });
+  std::vector<glm::vec3> by_place(irradiance.size());
+  in_parts(
+      lit_parts_, "lit", by_place.size(), kLuxelsPerPart,
+      [&](std::size_t place, LuxelRays::Scratch& scratch) {
+        by_place[place] = gather_at(static_cast<std::uint32_t>(place), scratch);
+      },
+      [&](std::size_t first, std::size_t last) {
+        return PartFiles::Values{std::as_writable_bytes(std::span(by_place).subspan(first, last - first))};
+      });
+  for (std::size_t place = 0; place < by_place.size(); ++place)
+    irradiance[tree_.order()[place]] = by_place[place];
   ++bounces_;
   return irradiance;
 }
@@ -248,8 +285,19 @@ void Solver::look_around_all() {
   patch_areas_.resize(patches_.count());
   for (std::uint32_t place = 0; place < tree_.luxels().size(); ++place)
     patch_areas_[patches_.of(place)] += static_cast<double>(tree_.luxels()[place].area);
-  in_batches(patches_.count(),
-             [&](std::size_t patch, LuxelRays::Scratch& scratch) { look_around(patch, scratch); });
+  in_parts(
+      seen_parts_, "seen", patches_.count(), kPatchesPerPart,
+      [&](std::size_t patch, LuxelRays::Scratch& scratch) { look_around(patch, scratch); },
+      [&](std::size_t first, std::size_t last) {
+        const auto rays_each = static_cast<std::size_t>(settings_.rays);
+        PartFiles::Values values = {
+            std::as_writable_bytes(std::span(brought_).subspan(first, last - first)),
+            std::as_writable_bytes(std::span(ends_).subspan(first * rays_each, (last - first) * rays_each))};
+        if (!tints_.empty())
+          values.push_back(std::as_writable_bytes(
+              std::span(tints_).subspan(first * rays_each, (last - first) * rays_each)));
+        return values;
+      });
 }
 
 Result<Interreflection> Solver::solve() {
@@ -338,13 +386,13 @@ Result<void> check_luxels(const frame::Frame& frame, std::span<const Luxel> luxe
 Result<Interreflection> interreflect(const frame::Frame& frame, const trace::RayScene& rays,
                                      std::span<const Luxel> luxels, const LightSources& sources,
                                      const RadiositySettings& settings, const TaskPool& pool,
-                                     const Progress& progress) {
+                                     const Progress& progress, const PartFiles& parts) {
   if (auto checked = check_settings(settings); !checked) return tl::unexpected(std::move(checked.error()));
   if (auto checked = check_luxels(frame, luxels, sources); !checked)
     return tl::unexpected(std::move(checked.error()));
   if (luxels.empty() || settings.bounces == 0)
     return Interreflection{std::vector(luxels.size(), glm::vec3(0)), 0, 0};
-  return Solver(frame, rays, luxels, sources, settings, pool, progress).solve();
+  return Solver(frame, rays, luxels, sources, settings, pool, progress, parts).solve();
 }
 
 }  // namespace laterna::bake

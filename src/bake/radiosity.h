@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/luxel.h"
+#include "bake/part_files.h"
 #include "base/task_pool.h"
 #include "frame/frame.h"
 #include "laterna/radiosity.h"
@@ -35,12 +36,13 @@ struct Interreflection {
 /// Luxels reflect onto each other what falls on them: ρ (E_direct + E_indirect) + exitance. Rays meet what casts shadows,
 /// and what they meet gives off what the luxels near by on that side of it do; a side without luxels within reach is black,
 /// and so is what lies beyond the scene. Blended surfaces tint what comes through (shadow/panes) and reflect nothing.
-/// `rays` is made of `frame`. The result depends on neither threads nor instruction set.
+/// `rays` is made of `frame`. `parts`: what is worked out is kept in files as it comes, and taken from there. The result depends on neither threads nor instruction set.
 /// Error: bad_usage for settings out of range and spans of differing lengths, bad_input with the luxel's number for luxels
 /// and light that are not finite or out of range, cancelled.
 Result<Interreflection> interreflect(const frame::Frame& frame, const trace::RayScene& rays,
                                      std::span<const Luxel> luxels, const LightSources& sources,
                                      const RadiositySettings& settings, const TaskPool& pool,
-                                     const Progress& progress = {});
+                                     const Progress& progress = {},
+                                     const PartFiles& parts = PartFiles::none());
 
 }  // namespace laterna::bake

@@ -68,11 +68,24 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light:
   }
 }
 
+namespace {
+
+// Whether where the camera stands decides on the light's maps: light::make_light_plan().
+bool follows_camera(const light::PlannedLight& planned) {
+  return planned.technique == ShadowTechnique::cascades || planned.settings.warp != ShadowWarp::none;
+}
+
+}  // namespace
+
+DepthMapOwner ShadowCasting::owner_of(const light::PlannedLight& planned, std::size_t index) const {
+  return {index, follows_camera(planned) ? context_.reflections : std::vector<int>()};
+}
+
 DepthMapCache::Found ShadowCasting::find_maps(const light::PlannedLight& planned, std::size_t index,
                                               bool keeps_triangles) {
   ProgressReport& progress = context_.progress;
   const DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces, keeps_triangles};
-  DepthMapCache::Found found = context_.maps.find(index, key,
+  DepthMapCache::Found found = context_.maps.find(owner_of(planned, index), key,
                                                   {context_.frame, context_.pool, context_.bins,
                                                    context_.instruction_set, context_.statistics.map_stages},
                                                   !context_.settings.keep_shadow_maps, working_bytes_,
@@ -171,8 +184,9 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_soft_map(const ligh
   if (!complete(found.maps)) return nullptr;
   std::vector<std::uint64_t> key = std::move(found.contents);
   key.push_back(static_cast<std::uint64_t>(planned.technique));
-  auto nearest = context_.maps.derive<shadow::NearestPyramids>(
-      index, std::move(key), [&] { return shadow::NearestPyramids(found.maps, context_.pool); });
+  auto nearest = context_.maps.derive<shadow::NearestPyramids>(owner_of(planned, index), std::move(key), [&] {
+    return shadow::NearestPyramids(found.maps, context_.pool);
+  });
   auto technique = std::make_unique<shadow::SoftShadowMap>(
       planned, found.maps, std::move(nearest), context_.frame, find_neighbours(planned),
       context_.camera.homogeneous_ray(), context_.settings.samples, context_.instruction_set);
@@ -189,7 +203,7 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_variance_map(const 
   key.insert(key.end(),
              {static_cast<std::uint64_t>(settings.depth), static_cast<std::uint64_t>(settings.moments),
               std::bit_cast<std::uint32_t>(settings.blur), static_cast<std::uint64_t>(planned.technique)});
-  auto moments = context_.maps.derive<shadow::MomentMaps>(index, std::move(key), [&] {
+  auto moments = context_.maps.derive<shadow::MomentMaps>(owner_of(planned, index), std::move(key), [&] {
     return shadow::MomentMaps(found.maps, settings, context_.instruction_set, context_.pool);
   });
   auto technique = std::make_unique<shadow::VarianceShadowMap>(

@@ -30,6 +30,7 @@ struct CastingContext {
   const RenderSettings& settings;
   RenderStatistics& statistics;
   ProgressReport& progress;
+  const std::vector<int>& reflections;  // on the way to the view: light::MirrorView
 };
 
 class ShadowCasting {
@@ -58,6 +59,7 @@ class ShadowCasting {
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_variance_map(const light::PlannedLight& planned,
                                                                            std::size_t index);
   // The light's maps; their tiles are drawn when asked for.
+  [[nodiscard]] DepthMapOwner owner_of(const light::PlannedLight& planned, std::size_t index) const;
   [[nodiscard]] DepthMapCache::Found find_maps(const light::PlannedLight& planned, std::size_t index,
                                                bool keeps_triangles);
   // Where the filter asks for them, and null elsewhere.

@@ -73,8 +73,6 @@ void warn_of_rest(const Scene& scene, Document& document) {
     document.warn("photographs", "glTF has no photographs: add them again with `laterna photo`");
   if (std::ranges::any_of(scene.materials, [](const Material& m) { return !m.layers.empty(); }))
     document.warn("surfaces", "layers on surfaces are not carried: keep the rig that has them");
-  if (std::ranges::any_of(scene.materials, [](const Material& m) { return m.mirror != nullptr; }))
-    document.warn("surfaces", "mirrors are not carried: keep the rig that has them");
 }
 
 Result<GltfFiles> make(const Scene& scene, const std::filesystem::path& file,

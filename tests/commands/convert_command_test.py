@@ -30,8 +30,9 @@ def load(schema):
 def check(schema, instance):
     with warnings.catch_warnings():  # its successor is not in Debian 12
         warnings.simplefilter("ignore", DeprecationWarning)
-        resolver = jsonschema.RefResolver("", {}, store={"definitions.schema.json": load("definitions")})
-        jsonschema.Draft202012Validator(load(schema), resolver=resolver).validate(instance)
+        known = {f"{name}.schema.json": load(name) for name in ("definitions", schema)}
+        resolver = jsonschema.RefResolver("", {}, store=known)
+        jsonschema.Draft202012Validator(known[f"{schema}.schema.json"], resolver=resolver).validate(instance)
 
 
 def extensions(value, name):
@@ -125,6 +126,19 @@ class Convert(unittest.TestCase):
                     for owner in gltf.get(place + "s", []):
                         if "LATERNA_lighting" in owner.get("extensions", {}):
                             check(place + ".LATERNA_lighting", owner["extensions"]["LATERNA_lighting"])
+
+    def test_mirrors_are_carried(self):
+        rig = self.folder / "mirror.json"
+        rig.write_text(json.dumps({"surfaces": [{"material": "boards", "mirror": {
+            "reflectance": [0.8, 0.9, 1], "ior": 1.5, "roughness": 0.2,
+            "waves": [{"direction": [1, 0, 0.3], "length": 0.5, "amplitude": 0.01, "speed": 1, "phase_deg": 40}]}}]}))
+        written = self.folder / "a.gltf"
+        done = run("convert", SCENES / "room.glb", "--rig", rig, "-o", written)
+        self.assertEqual((done.returncode, done.stderr), (OK, ""))
+        mirrors = list(extensions(json.loads(written.read_text())["materials"], "LATERNA_mirror"))
+        self.assertEqual(len(mirrors), 1)
+        self.assertEqual(mirrors[0]["reflectance"], [0.8, 0.9, 1])
+        check("material.LATERNA_mirror", mirrors[0])
 
     def known_keys(self, place, extension):
         """The keys that the reader names where none of them is right."""

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "bake/atlas_packer.h"
 #include "bake/charts.h"
+#include "laterna/relief.h"
 #include "laterna/write_scene.h"
 #include "reference/shapes.h"
 #include "unit/temporary_folder.h"
@@ -48,7 +50,7 @@ TEST(Bake, PackedRectanglesKeepTheirDistance) {
   for (unsigned i = 0; i < 300; ++i) sizes.emplace_back(1 + (i * 7919U) % 37U, 1 + (i * 104729U) % 23U);
   for (const int gap : {1, 3}) {
     for (const int side : {37, 128, 1024}) {
-      const bake::PackedRectangles packed = bake::pack_rectangles(sizes, gap, side);
+      const bake::PackedRectangles packed = bake::pack_rectangles(sizes, gap, side, 100).value();
       std::vector<std::vector<int>> owner(packed.pages.size());
       for (std::size_t p = 0; p < packed.pages.size(); ++p) {
         ASSERT_LE(std::max(packed.pages[p].x, packed.pages[p].y), side);
@@ -260,7 +262,42 @@ TEST(Bake, GoesOnWhereItWasStopped) {
   ASSERT_TRUE(resumed);
   EXPECT_EQ(resumed->report.resumed_strips, 1U);
   EXPECT_EQ(numbers_of(*resumed), numbers_of(*whole));
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  // Parts stay until what was baked is written. What only looks like one is not touched.
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "floor.glb.bake-0-2"));
+  std::ofstream(folder.path() / "floor.glb.bake-9-9") << "somebody's notes";
+  std::filesystem::copy_file(folder.path() / "floor.glb.bake-0-2", folder.path() / "floor.glb.bake-7-1");
+  std::filesystem::copy_file(folder.path() / "floor.glb.bake-0-2", folder.path() / "other.glb.bake-0-2");
+  remove_bake_parts(settings.work_file);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "floor.glb.bake-0-2"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "floor.glb.bake-7-1"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "floor.glb.bake-9-9"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "other.glb.bake-0-2"));
+}
+
+// What patches see is kept, and the light of each luxel.
+TEST(Bake, ReflectedLightGoesOnWhereItWasStopped) {
+  const TemporaryFolder folder;
+  BakeSettings settings;
+  settings.density = 40;
+  settings.samples = 1;
+  settings.interreflection = RadiositySettings{.rays = 16, .bounces = 3};
+  settings.options.threads = 1;
+  std::size_t calls_of_whole = 0;
+  const Result<BakedScene> whole =
+      bake_light(lit_shapes(), settings, [&](double) { return ++calls_of_whole > 0; });
+  ASSERT_TRUE(whole);
+  ASSERT_GT(whole->report.lit_luxels, 32768U);  // more than there are patches: the last bounce goes to luxels
+  settings.work_file = folder.path() / "shapes.glb";
+  settings.resume = true;
+  ASSERT_FALSE(bake_light(lit_shapes(), settings, [](double done) { return done < 0.97; }));
+  ASSERT_TRUE(std::filesystem::exists(folder.path() / "shapes.glb.bake-seen-0"));
+  ASSERT_TRUE(std::filesystem::exists(folder.path() / "shapes.glb.bake-lit-0"));
+  std::filesystem::resize_file(folder.path() / "shapes.glb.bake-seen-1", 5000);
+  std::size_t calls = 0;
+  const Result<BakedScene> resumed = bake_light(lit_shapes(), settings, [&](double) { return ++calls > 0; });
+  ASSERT_TRUE(resumed);
+  EXPECT_EQ(numbers_of(*resumed), numbers_of(*whole));
+  EXPECT_LT(4 * calls, 3 * calls_of_whole);
 }
 
 // The lights that the first maps hold are gone from the scene.
@@ -287,11 +324,48 @@ TEST(Bake, RefusesWhatMakesNoSense) {
   settings.lights = {"moon"};
   EXPECT_EQ(message(lit_shapes(), settings), "the scene has no light \"moon\"");
   settings = {};
+  settings.max_size = 16;
+  Scene tiles;
+  Mesher mesher;
+  for (int i = 0; i < 5000; ++i) {
+    const auto y = static_cast<float>(i);
+    mesher.triangle({0, y, 0}, {0, y, 0.9F}, {0.9F, y, 0});
+  }
+  add_object(tiles, "tiles", mesher.primitive);
+  EXPECT_EQ(
+      message(tiles, settings),
+      "max_size: the light maps would be more than 4096 of 16 luxels a side: ask for larger ones, or for a "
+      "lower density");
   settings.max_size = 64;
   EXPECT_EQ(message(lit_shapes(), settings),
             "object \"floor\": a triangle of 5.65685 m takes more than a light map of 64 luxels: at most "
             "11.1369 luxels per "
             "metre fit, asked for were 16");
+}
+
+// As with any texture (the surface is drawn, and it is said): all of it takes one luxel.
+TEST(LightMapFiles, MeshesWithoutTheCoordinatesAreTold) {
+  const TemporaryFolder folder;
+  Scene scene = lit_shapes();
+  scene.materials[1].light_map.front.picture =
+      add_picture(scene, 2, 2, [](int x, int y) { return glm::u8vec3(x + y == 0 ? 255 : 0); });
+  scene.materials[1].light_map.front.uv_set = 1;
+  Primitive& floor = scene.meshes[1].primitives[0];
+  floor.uv[1] = floor.uv[0];
+  ASSERT_TRUE(write_scene(scene, folder.path() / "map.gltf"));
+  std::ifstream in(folder.path() / "map.gltf");
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  const std::string word = "\"TEXCOORD_1\"";
+  ASSERT_NE(text.find(word), std::string::npos);
+  text.replace(text.find(word), word.size(), "\"_UNUSED\"");
+  std::ofstream(folder.path() / "map.gltf") << text;
+  const Result<Scene> read = load_scene({folder.path() / "map.gltf"});
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->warnings.size(), 1U);
+  EXPECT_NE(to_string(read->warnings[0])
+                .find("material \"floor\" uses texture coordinates 1, which the mesh does not have"),
+            std::string::npos)
+      << to_string(read->warnings[0]);
 }
 
 TEST(LightMapFiles, FaultsAreNamedWithTheirPlaces) {
