@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <tuple>
 
 #include "outcome.h"
 #include "progress_line.h"
@@ -80,6 +81,29 @@ void SceneOptions::declare_machine(CLI::App& command) {
                      "instruction set: scalar, sse4, avx2, avx512 or neon; the picture is the same");
 }
 
+namespace {
+
+// One note is enough, whatever clips there are.
+void tell_contending_clips(const Scene& scene) {
+  using Moved = std::tuple<AnimatedProperty, int, bool, int>;
+  std::map<Moved, const Clip*> mover_of;
+  for (const Clip& clip : scene.clips) {
+    if (!clip.plays || clip.is_path) continue;
+    for (const ClipChannel& c : clip.channels) {
+      const auto [known, is_new] = mover_of.try_emplace({c.property, c.target, c.of_light, c.texture}, &clip);
+      if (is_new || known->second == &clip) continue;
+      fmt::print(stderr,
+                 "laterna: note: --clip: several clips move the same things, \"{}\" and \"{}\" among them: "
+                 "of such clips "
+                 "the last one is seen\n",
+                 known->second->name, clip.name);
+      return;
+    }
+  }
+}
+
+}  // namespace
+
 double SceneOptions::metres_per_unit() const {
   static const std::map<std::string, double> kMetres = {
       {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}};
@@ -98,6 +122,7 @@ Result<Scene> SceneOptions::load() const {
   if (clip.empty()) return scene;
   const Result<void> chosen = choose_clip(*scene, clip);
   if (!chosen) return tl::unexpected(bad_option("--clip: " + to_string(chosen.error())));
+  tell_contending_clips(*scene);
   return scene;
 }
 

@@ -72,7 +72,7 @@ DepthMapCache::KeptMap DepthMapCache::make(const light::ShadowView& view, const 
   context.times += painter->prepare(lease->view(), context.pool);
   DepthMapPainter* const is_painted_by = painter.get();
   lease->set_painter(std::move(painter));
-  return {view, std::move(lease), is_painted_by, casters_.revision()};
+  return {view, std::move(lease), is_painted_by, casters_.revision(), 0};
 }
 
 // The near plane of a lamp stands before the nearest caster. Where that moves and nothing comes near the plane, the map stays
@@ -88,6 +88,7 @@ std::vector<DepthMapCache::KeptMap>::iterator DepthMapCache::find_view(std::vect
     if (!is_clear_between(kept.map->view(), moved, frame)) return false;
     kept.view = view;
     kept.map->set_view(moved);
+    kept.content = 0;
     return true;
   });
 }
@@ -98,7 +99,10 @@ bool DepthMapCache::update(KeptMap& kept, Found& found) const {
     // What a warp leaves out depends on casters.
     if (!changes || (kept.view.warp && !changes->empty())) return false;
     kept.casters_revision = casters_.revision();
-    if (kept.painter->update(*kept.map, *changes)) ++found.updated;
+    if (kept.painter->update(*kept.map, *changes)) {
+      ++found.updated;
+      kept.content = 0;
+    }
   }
   found.tiles_kept += kept.map->tiles_drawn();
   return true;
@@ -145,6 +149,8 @@ DepthMapCache::Found DepthMapCache::find(const DepthMapOwner& owner, const Depth
       draw_tiles(map, context.pool, context.times, asks_to_stop);
     }
     found.maps.push_back(maps[i].map);
+    if (maps[i].content == 0) maps[i].content = ++contents_;
+    found.contents.push_back(maps[i].content);
   }
   outworn_.clear();
   entry.maps = std::move(maps);
@@ -167,7 +173,7 @@ void DepthMapCache::make_room(std::size_t most_bytes) {
     if (!lock) continue;
     const bool is_used =
         std::ranges::any_of(entry.maps, [](const KeptMap& kept) { return kept.map.use_count() > 1; });
-    std::size_t own = 0;
+    std::size_t own = entry.derived_bytes;
     for (const KeptMap& kept : entry.maps) own += is_used ? kept.map->memory_bytes() : kept.bytes();
     bytes += own;
     if (!is_used && own > 0) idle.push_back({entry.used, own, &entry, std::move(lock)});
@@ -177,6 +183,7 @@ void DepthMapCache::make_room(std::size_t most_bytes) {
     if (bytes <= most_bytes) break;
     bytes -= oldest.bytes;
     oldest.entry->maps.clear();
+    oldest.entry->forget_derived();
   }
   if (!idle.empty()) outworn_.clear();
 }
@@ -190,6 +197,7 @@ void DepthMapCache::rest(std::size_t most_bytes) {
       if (kept.map->is_complete()) kept.map->rest();
       bytes += kept.bytes();
     }
+    bytes += entry.derived_bytes;
   }
   // What is sorted is made again sooner than maps are.
   for (auto& [owner, entry] : entries_) {
@@ -199,6 +207,11 @@ void DepthMapCache::rest(std::size_t most_bytes) {
       kept.map->rest();
       bytes += kept.bytes();
     }
+  }
+  for (auto& [owner, entry] : entries_) {
+    if (bytes <= most_bytes) break;
+    bytes -= entry.derived_bytes;
+    entry.forget_derived();
   }
   while (bytes > most_bytes) {
     Entry* longest_unused = nullptr;

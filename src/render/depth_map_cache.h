@@ -67,8 +67,9 @@ class DepthMapCache {
 
   struct Found {
     DepthMaps maps;
-    int made = 0, updated = 0;     // the others were kept as they were
-    std::uint64_t tiles_kept = 0;  // drawn for earlier pictures, and still so
+    int made = 0, updated = 0;            // the others were kept as they were
+    std::uint64_t tiles_kept = 0;         // drawn for earlier pictures, and still so
+    std::vector<std::uint64_t> contents;  // of each map, a number that no other content has
   };
   /// The owner's maps, made anew if those kept are of something else; where casters have moved in them, tiles that
   /// those touch are forgotten. Callers that ask for the same owner at the same time wait. `anew`: in any case.
@@ -76,6 +77,23 @@ class DepthMapCache {
   /// tiles that are not drawn.
   Found find(const DepthMapOwner& owner, const DepthMapKey& key, const DrawContext& context, bool anew,
              std::size_t& working_bytes, const std::function<bool()>& asks_to_stop);
+  /// What is worked out from an owner's complete maps as a whole: what was kept with them where it has the same key, which holds all that it
+  /// is made of (Found::contents, settings, what kind it is), else what `make` gives. Derived has memory_bytes().
+  template <class Derived, class Make>
+  std::shared_ptr<const Derived> derive(const DepthMapOwner& owner, std::vector<std::uint64_t> key,
+                                        const Make& make) {
+    std::unique_lock list_lock(mutex_);
+    Entry& entry = entries_[owner];
+    list_lock.unlock();
+    const std::lock_guard lock(entry.mutex);
+    if (entry.derived_key == key) return std::static_pointer_cast<const Derived>(entry.derived);
+    entry.forget_derived();
+    auto made = std::make_shared<const Derived>(make());
+    entry.derived = made;
+    entry.derived_bytes = made->memory_bytes();
+    entry.derived_key = std::move(key);
+    return made;
+  }
   /// While pictures are drawn: the same as rest(), of maps that none of them uses now.
   void make_room(std::size_t most_bytes);
   /// When nobody draws: frees what is not needed for maps that are complete, then what was not used for longest, until no
@@ -92,6 +110,7 @@ class DepthMapCache {
     std::shared_ptr<shadow::DepthMap> map;
     DepthMapPainter* painter = nullptr;  // the map's
     std::uint64_t casters_revision = 0;
+    std::uint64_t content = 0;  // 0: another than before
     [[nodiscard]] std::size_t bytes() const { return map->memory_bytes() + painter->kept_bytes(); }
   };
   struct Entry {
@@ -100,6 +119,16 @@ class DepthMapCache {
     bool keeps_triangles = true;
     std::vector<KeptMap> maps;
     std::uint64_t used = 0;  // when
+    // What is worked out from the maps, and from what; an empty key: nothing.
+    std::vector<std::uint64_t> derived_key;
+    std::shared_ptr<const void> derived;
+    std::size_t derived_bytes = 0;
+
+    void forget_derived() {
+      derived_key.clear();
+      derived.reset();
+      derived_bytes = 0;
+    }
   };
 
   // Which of the maps is of that view, if any, whatever has moved since.
@@ -116,6 +145,7 @@ class DepthMapCache {
   ReusePool<shadow::DepthMap> outworn_;  // outlives the maps
   std::mutex mutex_;                     // of the list
   std::uint64_t uses_ = 0;
+  std::atomic<std::uint64_t> contents_ = 0;  // there have been
   std::atomic<std::size_t> kept_bytes_ = 0;
   std::map<DepthMapOwner, Entry> entries_;
 };

@@ -1,6 +1,7 @@
 #include "render/shadow_casting.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/stopwatch.h"
 #include "render/silhouette_painter.h"
@@ -76,22 +77,25 @@ bool follows_camera(const light::PlannedLight& planned) {
 
 }  // namespace
 
-DepthMaps ShadowCasting::find_maps(const light::PlannedLight& planned, std::size_t index,
-                                   bool keeps_triangles) {
+DepthMapOwner ShadowCasting::owner_of(const light::PlannedLight& planned, std::size_t index) const {
+  return {index, follows_camera(planned) ? context_.way : std::vector<int>()};
+}
+
+DepthMapCache::Found ShadowCasting::find_maps(const light::PlannedLight& planned, std::size_t index,
+                                              bool keeps_triangles) {
   ProgressReport& progress = context_.progress;
   const DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces, keeps_triangles};
-  const DepthMapOwner owner = {index, follows_camera(planned) ? context_.way : std::vector<int>()};
-  const DepthMapCache::Found found = context_.maps.find(
-      owner, key,
-      {context_.frame, context_.pool, context_.bins, context_.instruction_set,
-       context_.statistics.map_stages},
-      !context_.settings.keep_shadow_maps, working_bytes_, [&progress] { return progress.asks_to_stop(); });
+  DepthMapCache::Found found = context_.maps.find(owner_of(planned, index), key,
+                                                  {context_.frame, context_.pool, context_.bins,
+                                                   context_.instruction_set, context_.statistics.map_stages},
+                                                  !context_.settings.keep_shadow_maps, working_bytes_,
+                                                  [&progress] { return progress.asks_to_stop(); });
   const int redone = found.made + found.updated;
   context_.statistics.maps_drawn += redone;
   context_.statistics.maps_kept += static_cast<int>(found.maps.size()) - redone;
   context_.statistics.map_reuse.maps_updated += found.updated;
   context_.statistics.map_reuse.tiles_kept += found.tiles_kept;
-  return found.maps;
+  return found;
 }
 
 const frame::TriangleNeighbours* ShadowCasting::find_neighbours(const light::PlannedLight& planned) const {
@@ -112,7 +116,7 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_map(const light::Pl
                                                                  std::size_t index) {
   if (planned.settings.layout == ShadowLayout::dual_paraboloid) return make_paraboloids(planned, index);
   ProgressReport& progress = context_.progress;
-  const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
+  const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined).maps;
   report_memory(planned, maps, 0);
   return std::make_unique<shadow::ShadowMap>(
       planned, maps, context_.frame, find_neighbours(planned), context_.camera.homogeneous_ray(),
@@ -176,23 +180,36 @@ void ShadowCasting::report_memory(const light::PlannedLight& planned, int maps, 
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_soft_map(const light::PlannedLight& planned,
                                                                       std::size_t index) {
   if (!light::has_samples(*planned.placed->light)) return make_map(planned, index);
-  const DepthMaps maps = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
-  if (!complete(maps)) return nullptr;
+  DepthMapCache::Found found = find_maps(planned, index, planned.settings.filter == ShadowFilter::refined);
+  if (!complete(found.maps)) return nullptr;
+  std::vector<std::uint64_t> key = std::move(found.contents);
+  key.push_back(static_cast<std::uint64_t>(planned.technique));
+  auto nearest = context_.maps.derive<shadow::NearestPyramids>(owner_of(planned, index), std::move(key), [&] {
+    return shadow::NearestPyramids(found.maps, context_.pool);
+  });
   auto technique = std::make_unique<shadow::SoftShadowMap>(
-      planned, maps, context_.frame, find_neighbours(planned), context_.camera.homogeneous_ray(),
-      context_.settings.samples, context_.instruction_set, context_.pool);
-  report_memory(planned, maps, technique->memory_bytes());
+      planned, found.maps, std::move(nearest), context_.frame, find_neighbours(planned),
+      context_.camera.homogeneous_ray(), context_.settings.samples, context_.instruction_set);
+  report_memory(planned, found.maps, technique->memory_bytes());
   return technique;
 }
 
 std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_variance_map(const light::PlannedLight& planned,
                                                                           std::size_t index) {
-  const DepthMaps maps = find_maps(planned, index, false);
-  if (!complete(maps)) return nullptr;
-  auto technique = std::make_unique<shadow::VarianceShadowMap>(planned, maps, context_.frame,
-                                                               context_.camera.homogeneous_ray(),
-                                                               context_.instruction_set, context_.pool);
-  report_memory(planned, maps, technique->memory_bytes());
+  DepthMapCache::Found found = find_maps(planned, index, false);
+  if (!complete(found.maps)) return nullptr;
+  const ShadowSettings& settings = planned.settings;
+  std::vector<std::uint64_t> key = std::move(found.contents);
+  key.insert(key.end(),
+             {static_cast<std::uint64_t>(settings.depth), static_cast<std::uint64_t>(settings.moments),
+              std::bit_cast<std::uint32_t>(settings.blur), static_cast<std::uint64_t>(planned.technique)});
+  auto moments = context_.maps.derive<shadow::MomentMaps>(owner_of(planned, index), std::move(key), [&] {
+    return shadow::MomentMaps(found.maps, settings, context_.instruction_set, context_.pool);
+  });
+  auto technique = std::make_unique<shadow::VarianceShadowMap>(
+      planned, found.maps, std::move(moments), context_.frame, context_.camera.homogeneous_ray(),
+      context_.instruction_set);
+  report_memory(planned, found.maps, technique->memory_bytes());
   return technique;
 }
 

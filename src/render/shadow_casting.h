@@ -59,8 +59,9 @@ class ShadowCasting {
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make_variance_map(const light::PlannedLight& planned,
                                                                            std::size_t index);
   // The light's maps; their tiles are drawn when asked for.
-  [[nodiscard]] DepthMaps find_maps(const light::PlannedLight& planned, std::size_t index,
-                                    bool keeps_triangles);
+  [[nodiscard]] DepthMapOwner owner_of(const light::PlannedLight& planned, std::size_t index) const;
+  [[nodiscard]] DepthMapCache::Found find_maps(const light::PlannedLight& planned, std::size_t index,
+                                               bool keeps_triangles);
   // Where the filter asks for them, and null elsewhere.
   [[nodiscard]] const frame::TriangleNeighbours* find_neighbours(const light::PlannedLight& planned) const;
   // All tiles at once. False: the caller asks to stop, and there is nothing to be made of the maps.

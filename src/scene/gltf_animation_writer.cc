@@ -208,15 +208,6 @@ std::vector<bool> nodes_moved_by_parts(const Scene& scene) {
   return moved;
 }
 
-Transform parts_of(const Node& node) {
-  if (node.transform) return *node.transform;
-  Transform parts;
-  parts.translation = glm::dvec3(node.parent_from_node[3]);
-  const glm::dquat rotation = glm::quat_cast(glm::dmat3(node.parent_from_node));
-  parts.rotation = {rotation.x, rotation.y, rotation.z, rotation.w};
-  return parts;
-}
-
 void write_skins(const Scene& scene, Document& document) {
   for (const Skin& skin : scene.skins) {
     std::vector<double> matrices;

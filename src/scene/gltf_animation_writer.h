@@ -12,9 +12,6 @@ namespace laterna::gltf {
 /// a file.
 std::vector<bool> nodes_moved_by_parts(const Scene& scene);
 
-/// A node's parts: its own, or what its matrix, which only turns and shifts, is made of.
-Transform parts_of(const Node& node);
-
 /// In the scene's order.
 void write_skins(const Scene& scene, Document& document);
 

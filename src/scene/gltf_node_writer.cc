@@ -10,6 +10,7 @@
 #include "scene/gltf_light_extensions.h"
 #include "scene/gltf_setting_writer.h"
 #include "scene/instance_transforms.h"
+#include "scene/scene_pose.h"
 
 namespace laterna::gltf {
 namespace {
@@ -101,7 +102,7 @@ class NodeWriter {
     Json json = Json::object();
     if (!node.name.empty()) json["name"] = node.name;
     if (moved_by_parts_[static_cast<std::size_t>(&node - scene_.nodes.data())]) {
-      set_parts(json, parts_of(node));
+      set_parts(json, node.transform.value_or(parts_of(node.parent_from_node)));
     } else {
       set_matrix(json, node.parent_from_node);
     }

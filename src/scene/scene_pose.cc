@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 #include <span>
 
 #include "base/elementary.h"
@@ -246,6 +248,21 @@ void take_along(const Scene& scene, std::vector<bool>& moves) {
 
 }  // namespace
 
+Transform parts_of(const glm::dmat4& parent_from_node) {
+  Transform parts;
+  parts.translation = glm::dvec3(parent_from_node[3]);
+  glm::dmat3 turned(parent_from_node);
+  for (int axis = 0; axis < 3; ++axis) parts.scale[axis] = glm::length(turned[axis]);
+  if (glm::determinant(turned) < 0) parts.scale.x = -parts.scale.x;
+  for (int axis = 0; axis < 3; ++axis) {
+    // An axis that is flat has no direction of its own.
+    turned[axis] = parts.scale[axis] == 0 ? glm::dmat3(1.0)[axis] : turned[axis] / parts.scale[axis];
+  }
+  const glm::dquat rotation = glm::normalize(glm::quat_cast(turned));
+  parts.rotation = {rotation.x, rotation.y, rotation.z, rotation.w};
+  return parts;
+}
+
 glm::dmat4 gaze_matrix(std::span<const double> v) {
   const glm::dvec3 position = vector_of(v);
   const Result<Pose> pose = Pose::look_at(position, vector_of(v.subspan(3)), vector_of(v.subspan(6)));
@@ -323,8 +340,10 @@ void ScenePose::set_light(int light, const Light& value) {
 }
 
 void ScenePose::set_node(int node, const glm::dmat4& parent_from_node) {
-  if (const auto rest = nodes_.find(node); rest != nodes_.end())
-    rest->second.parent_from_node = parent_from_node;
+  const auto rest = nodes_.find(node);
+  if (rest == nodes_.end()) return;
+  rest->second.parent_from_node = parent_from_node;
+  rest->second.transform = parts_of(parent_from_node);
 }
 
 void pose_scene(Scene& scene, double seconds) { ScenePose(scene).apply(scene, seconds); }

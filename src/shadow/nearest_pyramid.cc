@@ -80,4 +80,14 @@ std::size_t NearestPyramid::memory_bytes() const {
   return bytes;
 }
 
+NearestPyramids::NearestPyramids(std::span<const std::shared_ptr<DepthMap>> maps, const TaskPool& pool) {
+  for (const auto& map : maps) of_map.emplace_back(*map, pool);
+}
+
+std::size_t NearestPyramids::memory_bytes() const {
+  std::size_t bytes = 0;
+  for (const NearestPyramid& pyramid : of_map) bytes += pyramid.memory_bytes();
+  return bytes;
+}
+
 }  // namespace laterna::shadow

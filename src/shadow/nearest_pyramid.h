@@ -2,6 +2,8 @@
 // Guennebaud, Barthe and Paulin, Real-time soft shadow mapping by backprojection, 2006, call it a hierarchical shadow map.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "base/task_pool.h"
@@ -31,6 +33,15 @@ class NearestPyramid {
   static constexpr int kFirstLevel = 2;  // DepthMap's blocks
 
   std::vector<Level> levels_;  // the last is one cell
+};
+
+/// Those of one light's maps.
+struct NearestPyramids {
+  /// All tiles of the maps are drawn.
+  NearestPyramids(std::span<const std::shared_ptr<DepthMap>> maps, const TaskPool& pool);
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+  std::vector<NearestPyramid> of_map;
 };
 
 }  // namespace laterna::shadow

@@ -94,15 +94,16 @@ const TapPattern& square_pattern() {
 }
 
 SoftShadowMap::SoftShadowMap(const light::PlannedLight& planned,
-                             std::span<const std::shared_ptr<DepthMap>> maps, const frame::Frame& frame,
+                             std::span<const std::shared_ptr<DepthMap>> maps,
+                             std::shared_ptr<const NearestPyramids> nearest, const frame::Frame& frame,
                              const frame::TriangleNeighbours* neighbours, const raster::RasterView::Ray& ray,
-                             int samples_per_pixel, InstructionSet set, const TaskPool& pool)
-    : maps_(maps.begin(), maps.end()) {
+                             int samples_per_pixel, InstructionSet set)
+    : maps_(maps.begin(), maps.end()), nearest_(std::move(nearest)) {
   test_.hard = make_shadow_map_test(planned, maps, frame, neighbours, ray, samples_per_pixel, set);
-  for (const auto& map : maps) {
-    const raster::RasterView& view = map->view();
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const raster::RasterView& view = maps[i]->view();
     SoftDepthMap& soft = test_.maps.emplace_back();
-    soft.nearest = NearestPyramid(*map, pool);
+    soft.nearest = &nearest_->of_map[i];
     copy(view.x_row, soft.x_row_ws);
     copy(view.y_row, soft.y_row_ws);
     // Parallel light has the same place in every texel.
@@ -136,10 +137,6 @@ double SoftShadowMap::find_arrival(const SurfaceSamples& samples, std::span<cons
   return 0;
 }
 
-std::size_t SoftShadowMap::memory_bytes() const {
-  std::size_t bytes = 0;
-  for (const SoftDepthMap& map : test_.maps) bytes += map.nearest.memory_bytes();
-  return bytes;
-}
+std::size_t SoftShadowMap::memory_bytes() const { return nearest_->memory_bytes(); }
 
 }  // namespace laterna::shadow

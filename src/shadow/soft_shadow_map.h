@@ -28,7 +28,7 @@ const TapPattern& square_pattern();
 
 /// One map of a light with a size. What the kernel reads.
 struct SoftDepthMap {
-  NearestPyramid nearest;
+  const NearestPyramid* nearest = nullptr;
   // Rows over (position_ws − eye): texels, homogeneous in a perspective view, and its divisor.
   float x_row_ws[3] = {0, 0, 0}, y_row_ws[3] = {0, 0, 0}, w_row_ws[3] = {0, 0, 0};
   float origin_x = 0, origin_y = 0;
@@ -51,11 +51,11 @@ struct SoftShadowTest {
 
 class SoftShadowMap final : public ShadowTechnique {
  public:
-  /// All tiles of the maps are drawn. The light has a size, or a lens that is open.
+  /// All tiles of the maps are drawn. The light has a size, or a lens that is open. `nearest`: of these maps.
   SoftShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
-                const frame::Frame& frame, const frame::TriangleNeighbours* neighbours,
-                const raster::RasterView::Ray& ray, int samples_per_pixel, InstructionSet set,
-                const TaskPool& pool);
+                std::shared_ptr<const NearestPyramids> nearest, const frame::Frame& frame,
+                const frame::TriangleNeighbours* neighbours, const raster::RasterView::Ray& ray,
+                int samples_per_pixel, InstructionSet set);
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                       Arrival& arrival) const override;
   /// Beside the maps themselves.
@@ -63,6 +63,7 @@ class SoftShadowMap final : public ShadowTechnique {
 
  private:
   std::vector<std::shared_ptr<DepthMap>> maps_;
+  std::shared_ptr<const NearestPyramids> nearest_;
   SoftShadowTest test_;
 };
 

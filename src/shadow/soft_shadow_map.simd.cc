@@ -203,7 +203,7 @@ HWY_INLINE SoftArrival FindSoftArrival(const SoftShadowTest& test, const SoftDep
   const Receiver r = reader.Find(points);
   const LightExtent extent = FindExtent(soft, FindAxes(test, reader.bound(), points), r);
   const auto seen = hn::And(asked, reader.Covers(r));
-  const auto rise = FindGreatestRise(soft.nearest, extent, r, seen);
+  const auto rise = FindGreatestRise(*soft.nearest, extent, r, seen);
   const auto radius = extent.Radius();
   const auto may_be_soft = radius * rise >= Splat(kSharpRadius);
   if (hn::AllFalse(d, may_be_soft)) return {one, seen};

@@ -1,20 +1,27 @@
 #include "shadow/variance_shadow_map.h"
 
+#include <utility>
+
 namespace laterna::shadow {
+
+MomentMaps::MomentMaps(std::span<const std::shared_ptr<DepthMap>> depths, const ShadowSettings& settings,
+                       InstructionSet set, const TaskPool& pool)
+    : measure(find_depth_measure(depths, settings.depth, pool)) {
+  for (const auto& depth : depths)
+    maps.emplace_back(*depth, measure, settings.moments, settings.blur, set, pool);
+}
 
 VarianceShadowMap::VarianceShadowMap(const light::PlannedLight& planned,
                                      std::span<const std::shared_ptr<DepthMap>> maps,
-                                     const frame::Frame& frame, const raster::RasterView::Ray& ray,
-                                     InstructionSet set, const TaskPool& pool)
-    : maps_(maps.begin(), maps.end()) {
+                                     std::shared_ptr<const MomentMaps> moments, const frame::Frame& frame,
+                                     const raster::RasterView::Ray& ray, InstructionSet set)
+    : maps_(maps.begin(), maps.end()), moments_(std::move(moments)) {
   const ShadowSettings& settings = planned.settings;
   test_.hard = make_shadow_map_test(planned, maps, frame, nullptr, ray, 1, set);
-  test_.measure = find_depth_measure(maps, settings.depth, pool);
+  test_.measure = moments_->measure;
+  test_.maps = moments_->maps;
   test_.kind = settings.moments;
   test_.bleeding_reduction = settings.bleeding_reduction;
-  for (const auto& map : maps) {
-    test_.maps.emplace_back(*map, test_.measure, settings.moments, settings.blur, set, pool);
-  }
 }
 
 double VarianceShadowMap::find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
@@ -24,9 +31,11 @@ double VarianceShadowMap::find_arrival(const SurfaceSamples& samples, std::span<
   return 0;
 }
 
-std::size_t VarianceShadowMap::memory_bytes() const {
+std::size_t VarianceShadowMap::memory_bytes() const { return moments_->memory_bytes(); }
+
+std::size_t MomentMaps::memory_bytes() const {
   std::size_t bytes = 0;
-  for (const MomentMap& map : test_.maps) bytes += map.memory_bytes();
+  for (const MomentMap& map : maps) bytes += map.memory_bytes();
   return bytes;
 }
 

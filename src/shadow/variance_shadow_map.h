@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "shadow/moment_map.h"
@@ -11,10 +12,21 @@
 
 namespace laterna::shadow {
 
+/// The moments of one light's maps, all of one measure.
+struct MomentMaps {
+  /// All tiles of the maps are drawn.
+  MomentMaps(std::span<const std::shared_ptr<DepthMap>> depths, const ShadowSettings& settings,
+             InstructionSet set, const TaskPool& pool);
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+  DepthMeasure measure;
+  std::vector<MomentMap> maps;
+};
+
 /// What one light's look-ups need.
 struct VarianceShadowTest {
   ShadowMapTest hard;
-  std::vector<MomentMap> maps;  // as many as `hard` has
+  std::span<const MomentMap> maps;  // as many as `hard` has
   DepthMeasure measure;
   ShadowMoments kind = ShadowMoments::exponential;
   float bleeding_reduction = 0;
@@ -22,10 +34,10 @@ struct VarianceShadowTest {
 
 class VarianceShadowMap final : public ShadowTechnique {
  public:
-  /// All tiles of the maps are drawn.
+  /// `moments`: of these maps, for the light's settings.
   VarianceShadowMap(const light::PlannedLight& planned, std::span<const std::shared_ptr<DepthMap>> maps,
-                    const frame::Frame& frame, const raster::RasterView::Ray& ray, InstructionSet set,
-                    const TaskPool& pool);
+                    std::shared_ptr<const MomentMaps> moments, const frame::Frame& frame,
+                    const raster::RasterView::Ray& ray, InstructionSet set);
   double find_arrival(const SurfaceSamples& samples, std::span<const std::uint16_t> wanted,
                       Arrival& arrival) const override;
   /// Beside the maps themselves.
@@ -33,6 +45,7 @@ class VarianceShadowMap final : public ShadowTechnique {
 
  private:
   std::vector<std::shared_ptr<DepthMap>> maps_;
+  std::shared_ptr<const MomentMaps> moments_;
   VarianceShadowTest test_;
 };
 

@@ -98,6 +98,12 @@ std::vector<RenderStatistics> check_series(const Scene& scene, const std::vector
   return statistics;
 }
 
+RendererOptions at(double time) {
+  RendererOptions options;
+  options.time = time;
+  return options;
+}
+
 const std::vector<double> kTimes = {0, 0.1, 0.45, 0.5, 0.5, 0.95, 0.2};
 
 TEST(CasterLayers, ASeriesIsThatOfFreshRenderersWithEveryTechnique) {
@@ -180,6 +186,61 @@ TEST(CasterLayers, OnlyWhatACallerMovesIsDrawnAgain) {
   RendererOptions fresh;
   fresh.time = 0.6;
   EXPECT_TRUE(same_bits(draw(both).picture, draw(Renderer::create(h.scene, fresh).value()).picture));
+}
+
+// What clips leave alone is the caller's: of a ball that grows, its place and turn.
+TEST(CasterLayers, WhatACallerMovesKeepsWhatItsClipMoves) {
+  Hall h = hall();
+  h.scene.clips[0].channels[0].property = AnimatedProperty::scale;
+  h.scene.clips[0].keys[0].values = {1, 1, 1, 2, 1, 1.5};
+  reference::add_light(h.scene, lamp("lamp", LightType::projector), {2, 5, 3}, {0, 0, 0});
+  Renderer renderer = Renderer::create(h.scene).value();
+  draw(renderer);
+  const glm::dmat4 place =
+      glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(1, 0.25, 0.5)), 0.5, glm::dvec3(0, 1, 0));
+  ASSERT_TRUE(renderer.set_transform(h.ball, place));
+  Node& ball = h.scene.nodes[static_cast<std::size_t>(h.ball)];
+  ball.parent_from_node = place;
+  ball.transform = Transform{{1, 0.25, 0.5}, {0, std::sin(0.25), 0, std::cos(0.25)}, {1, 1, 1}};
+  for (const double time : {0.0, 0.5}) {
+    ASSERT_TRUE(renderer.set_time(time));
+    const Renderer fresh = Renderer::create(h.scene, at(time)).value();
+    const LayeredImage a = draw(renderer).picture, b = draw(fresh).picture;
+    // The turn is found from the matrix: its last bit may be another.
+    double most = 0;
+    for (std::size_t i = 0; i < a.channels[0].values.size(); ++i)
+      most = std::max(most, static_cast<double>(std::abs(a.channels[0].values[i] - b.channels[0].values[i])));
+    EXPECT_LT(most, 1e-4);
+  }
+}
+
+// Moments and bounds of depth stay with the maps that they are of: pictures in which nothing moved are those of fresh renderers, and so are
+// those after other settings and other casters.
+TEST(CasterLayers, WhatIsWorkedOutFromMapsIsThatOfTheMaps) {
+  Hall h = hall();
+  Light variance = lamp("variance", LightType::spot, ShadowTechnique::variance);
+  reference::add_light(h.scene, variance, {1, 5, 2}, {0, 0, 0});
+  Light soft = lamp("soft", LightType::spot, ShadowTechnique::pcss);
+  soft.source.radius = 0.1;
+  reference::add_light(h.scene, soft, {-1, 5, 2}, {0, 0, 0});
+  Renderer renderer = Renderer::create(h.scene).value();
+  const auto check = [&](double time) {
+    EXPECT_TRUE(renderer.set_time(time));
+    EXPECT_TRUE(same_bits(draw(renderer).picture, draw(Renderer::create(h.scene, at(time)).value()).picture));
+  };
+  for (const double time : {0.0, 0.0, 0.5, 0.5, 0.0}) check(time);
+  const auto change = [&](const auto& set) {
+    Light& light = h.scene.lights[0];
+    set(light.shadow);
+    EXPECT_TRUE(renderer.set_light(0, light));
+    check(0.5);
+    check(0.5);
+  };
+  change([](ShadowSettings& s) { s.blur = 4; });
+  change([](ShadowSettings& s) { s.moments = ShadowMoments::variance; });
+  change([](ShadowSettings& s) { s.depth = ShadowDepth::radial; });
+  change([](ShadowSettings& s) { s.technique = ShadowTechnique::map; });
+  change([](ShadowSettings& s) { s.technique = ShadowTechnique::variance; });
 }
 
 // Once the ball has begun to roll, what stands is neither sorted nor drawn again, and a lamp that does not see the ball keeps
