@@ -45,24 +45,103 @@ struct Options {
   }
 };
 
-class Output {
+// A file of one stream, as the muxer writes it.
+class Container {
  public:
-  Output(const LaternaVideoSettings& settings, const LaternaVideoSink& sink)
-      : settings_(settings), sink_(sink) {
-    frame_.reset(require(av_frame_alloc()));
-    packet_.reset(require(av_packet_alloc()));
+  Container(const char* name, const LaternaVideoSink& sink) : sink_(sink) {
     AVFormatContext* format = nullptr;
-    require(avformat_alloc_output_context2(&format, nullptr, settings.container, nullptr),
+    require(avformat_alloc_output_context2(&format, nullptr, name, nullptr),
             "FFmpeg here does not write such files");
     format_.reset(format);
     format->flags |= AVFMT_FLAG_CUSTOM_IO | AVFMT_FLAG_BITEXACT;
     open_sink();
+    require(avformat_new_stream(format, nullptr));
+  }
+  Container(const Container&) = delete;
+  Container& operator=(const Container&) = delete;
+
+  [[nodiscard]] AVStream& stream() const { return *format_->streams[0]; }
+  [[nodiscard]] bool wants_global_header() const {
+    return (format_->oformat->flags & AVFMT_GLOBALHEADER) != 0;
+  }
+
+  void begin(const char* options_lines) {
+    Options options(options_lines);
+    require(avformat_write_header(format_.get(), &options.all), "the file's beginning cannot be written");
+    options.require_read();
+  }
+
+  // Its times in `time_base`.
+  void write(AVPacket& packet, AVRational time_base) {
+    packet.stream_index = 0;
+    packet.pos = -1;
+    av_packet_rescale_ts(&packet, time_base, stream().time_base);
+    require(av_interleaved_write_frame(format_.get(), &packet), "a frame cannot be written");
+  }
+
+  // What was written can be read, whatever happens now: Matroska ends its cluster, MP4 its fragment.
+  void end_part() {
+    require(av_write_frame(format_.get(), nullptr), "a frame cannot be written");
+    flush("a frame cannot be written");
+  }
+
+  void finish() {
+    require(av_write_trailer(format_.get()), "the file's end cannot be written");
+    flush("the file's end cannot be written");
+  }
+
+ private:
+  void open_sink() {
+    auto* const buffer = static_cast<unsigned char*>(av_malloc(kBufferSize));
+    if (buffer == nullptr) throw std::bad_alloc();
+    format_->pb =
+        avio_alloc_context(buffer, kBufferSize, 1, this, nullptr, &Container::write_bytes, &Container::seek);
+    if (format_->pb == nullptr) {
+      av_free(buffer);
+      throw std::bad_alloc();
+    }
+  }
+
+  static int write_bytes(void* self, std::uint8_t* bytes, int size) {
+    Container& container = *static_cast<Container*>(self);
+    const int fault =
+        container.sink_.write(container.sink_.to, container.position_, bytes, static_cast<std::size_t>(size));
+    if (fault != 0) return AVERROR(fault);
+    container.position_ += size;
+    container.end_ = std::max(container.end_, container.position_);
+    return size;
+  }
+
+  static std::int64_t seek(void* self, std::int64_t offset, int whence) {
+    Container& container = *static_cast<Container*>(self);
+    if (whence == AVSEEK_SIZE) return container.end_;
+    if (whence == SEEK_CUR) offset += container.position_;
+    if (whence == SEEK_END) offset += container.end_;
+    if (offset < 0) return AVERROR(EINVAL);
+    container.position_ = offset;
+    return offset;
+  }
+
+  // A full disk may show only in what is buffered.
+  void flush(const char* doing) {
+    avio_flush(format_->pb);
+    require(format_->pb->error, doing);
+  }
+
+  LaternaVideoSink sink_;
+  std::unique_ptr<AVFormatContext, FreeOutput> format_;
+  std::int64_t position_ = 0, end_ = 0;
+};
+
+class Output {
+ public:
+  Output(const LaternaVideoSettings& settings, const LaternaVideoSink& sink)
+      : settings_(settings), container_(settings.container, sink) {
+    frame_.reset(require(av_frame_alloc()));
+    packet_.reset(require(av_packet_alloc()));
     open_encoder();
     open_stream();
-    Options options(settings.container_options);
-    require(avformat_write_header(format, &options.all), "the file's beginning cannot be written");
-    options.require_read();
-    time_base_ = codec_->time_base;
+    container_.begin(settings.container_options);
   }
 
   void write(const LaternaVideoPlanes& planes) {
@@ -86,43 +165,10 @@ class Output {
   void finish() {
     require(avcodec_send_frame(codec_.get(), nullptr), "the encoder cannot end the film");
     write_packets();
-    require(av_write_trailer(format_.get()), "the file's end cannot be written");
-    avio_flush(format_->pb);
-    require(format_->pb->error, "the file's end cannot be written");
+    container_.finish();
   }
 
  private:
-  void open_sink() {
-    auto* const buffer = static_cast<unsigned char*>(av_malloc(kBufferSize));
-    if (buffer == nullptr) throw std::bad_alloc();
-    format_->pb =
-        avio_alloc_context(buffer, kBufferSize, 1, this, nullptr, &Output::write_bytes, &Output::seek);
-    if (format_->pb == nullptr) {
-      av_free(buffer);
-      throw std::bad_alloc();
-    }
-  }
-
-  static int write_bytes(void* self, std::uint8_t* bytes, int size) {
-    Output& output = *static_cast<Output*>(self);
-    const int fault =
-        output.sink_.write(output.sink_.to, output.position_, bytes, static_cast<std::size_t>(size));
-    if (fault != 0) return AVERROR(fault);
-    output.position_ += size;
-    output.end_ = std::max(output.end_, output.position_);
-    return size;
-  }
-
-  static std::int64_t seek(void* self, std::int64_t offset, int whence) {
-    Output& output = *static_cast<Output*>(self);
-    if (whence == AVSEEK_SIZE) return output.end_;
-    if (whence == SEEK_CUR) offset += output.position_;
-    if (whence == SEEK_END) offset += output.end_;
-    if (offset < 0) return AVERROR(EINVAL);
-    output.position_ = offset;
-    return offset;
-  }
-
   void open_encoder() {
     const AVCodec* const encoder = avcodec_find_encoder_by_name(settings_.encoder);
     if (encoder == nullptr) throw Fault(std::string("FFmpeg here has no encoder ") + settings_.encoder);
@@ -143,17 +189,17 @@ class Output {
     codec.gop_size = settings_.frames_between_keys;
     codec.thread_count = kEncoderThreads;
     codec.flags |= AV_CODEC_FLAG_BITEXACT;
-    if ((format_->oformat->flags & AVFMT_GLOBALHEADER) != 0) codec.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+    if (container_.wants_global_header()) codec.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     Options options(settings_.options);
     require(avcodec_open2(codec_.get(), encoder, &options.all), "the encoder cannot be used");
     options.require_read();
   }
 
   void open_stream() {
-    AVStream* const stream = require(avformat_new_stream(format_.get(), nullptr));
-    stream->time_base = codec_->time_base;
-    stream->avg_frame_rate = codec_->framerate;
-    require(avcodec_parameters_from_context(stream->codecpar, codec_.get()), "the film's properties");
+    AVStream& stream = container_.stream();
+    stream.time_base = codec_->time_base;
+    stream.avg_frame_rate = codec_->framerate;
+    require(avcodec_parameters_from_context(stream.codecpar, codec_.get()), "the film's properties");
   }
 
   void fill(const LaternaVideoPlanes& planes) {
@@ -186,26 +232,44 @@ class Output {
       const int received = avcodec_receive_packet(codec_.get(), packet_.get());
       if (received == AVERROR(EAGAIN) || received == AVERROR_EOF) break;
       require(received, "the encoder fails");
-      AVStream& stream = *format_->streams[0];
-      packet_->stream_index = 0;
       packet_->duration = 1;
-      av_packet_rescale_ts(packet_.get(), time_base_, stream.time_base);
-      require(av_interleaved_write_frame(format_.get(), packet_.get()), "a frame cannot be written");
+      container_.write(*packet_, codec_->time_base);
+      container_.end_part();
     }
-    // Reached the file or did not: a full disk may show only in what is buffered.
-    avio_flush(format_->pb);
-    require(format_->pb->error, "a frame cannot be written");
   }
 
   LaternaVideoSettings settings_;
-  LaternaVideoSink sink_;
-  std::unique_ptr<AVFormatContext, FreeOutput> format_;
+  Container container_;
   Owned<AVCodecContext> codec_;
   Owned<AVFrame> frame_;
   Owned<AVPacket> packet_;
-  AVRational time_base_{};
-  std::int64_t frames_ = 0, position_ = 0, end_ = 0;
+  std::int64_t frames_ = 0;
 };
+
+// From one container to another: nothing is decoded.
+void rearrange_film(const char* file, const char* container_name, const char* container_options,
+                    const LaternaVideoSink& sink) {
+  AVFormatContext* opened = nullptr;
+  require(avformat_open_input(&opened, file, nullptr, nullptr), "the film's frames cannot be read");
+  const Owned<AVFormatContext> from(opened);
+  require(avformat_find_stream_info(from.get(), nullptr), "the film's frames cannot be read");
+  if (from->nb_streams != 1) throw Fault("the film's frames cannot be read: expected one stream");
+  const AVStream& read = *from->streams[0];
+  Container to(container_name, sink);
+  AVStream& written = to.stream();
+  require(avcodec_parameters_copy(written.codecpar, read.codecpar), "the film's properties");
+  written.time_base = read.time_base;
+  written.avg_frame_rate = read.avg_frame_rate;
+  to.begin(container_options);
+  const Owned<AVPacket> packet(require(av_packet_alloc()));
+  for (;;) {
+    const int status = av_read_frame(from.get(), packet.get());
+    if (status == AVERROR_EOF) break;
+    require(status, "the film's frames cannot be read");
+    to.write(*packet, read.time_base);
+  }
+  to.finish();
+}
 
 int can_write(const char* container, const char* encoder) {
   const AVCodec* const codec = avcodec_find_encoder_by_name(encoder);
@@ -232,6 +296,13 @@ int finish(LaternaVideoOutput* output, char* message, std::size_t message_size) 
 
 void discard(LaternaVideoOutput* output) { delete reinterpret_cast<Output*>(output); }
 
+int rearrange(const char* file, const char* container, const char* container_options,
+              const LaternaVideoSink* sink, char* message, std::size_t message_size) {
+  return caught([&] { rearrange_film(file, container, container_options, *sink); }, message, message_size)
+             ? 1
+             : 0;
+}
+
 }  // namespace
 
 void add_output(LaternaVideoPlugin& plugin) {
@@ -240,6 +311,7 @@ void add_output(LaternaVideoPlugin& plugin) {
   plugin.write = write;
   plugin.finish = finish;
   plugin.discard = discard;
+  plugin.rearrange = rearrange;
 }
 
 }  // namespace laterna_ffmpeg

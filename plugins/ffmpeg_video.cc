@@ -121,7 +121,8 @@ class Film {
     codec_->flags |= AV_CODEC_FLAG_BITEXACT | AV_CODEC_FLAG_UNALIGNED;
     codec_->idct_algo = FF_IDCT_SIMPLE;
     codec_->thread_count = 1;
-    codec_->error_concealment = 0;
+    // Error concealment stays on: without it, FFmpeg marks whole H.264 frames of several slices as damaged. What it conceals, it
+    // marks, and is refused (is_whole()).
     codec_->max_pixels = most_pixels_;
     require(avcodec_open2(codec_.get(), decoder, nullptr), "its decoder cannot be used");
     if (width_ == 0) width_ = codec_->width, height_ = codec_->height;

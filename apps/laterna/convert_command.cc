@@ -16,7 +16,7 @@ namespace {
 struct Options {
   SceneOptions scene;
   std::string output;
-  bool embeds = false;
+  bool embeds = false, is_still = false;
   ImageBasedLightSettings environment;
 };
 
@@ -55,10 +55,14 @@ int run_convert(const Options& options) {
     return report(possible.error());
   Result<Scene> scene = options.scene.load();
   if (!scene) return report(scene.error());
-  if (!scene->clips.empty()) {
+  if (options.is_still && !scene->clips.empty()) {
     if (std::vector<Diagnostic> faults = validate(*scene); !faults.empty())
       return report(Error(Failure::bad_input, std::move(faults)));
     pose_scene(*scene, options.scene.time);
+    scene->clips.clear();
+    fmt::print(stderr,
+               "laterna: note: animation is left out: the file shows the scene at {} s, as --time asks\n",
+               options.scene.time);
   }
   const Result<RendererOptions> machine = options.scene.renderer_options();
   if (!machine) return report(machine.error());
@@ -87,10 +91,11 @@ void declare_convert(CLI::App& app, Run& run) {
   command->add_flag("--embed", options->embeds,
                     "a .gltf of one piece: geometry, pictures and lamps inside it, as a .glb has them");
   command->footer(
-      "\nWhat is written is what `laterna render` shows at --time: its pictures are the same, bit for bit, "
-      "but "
-      "for what\n"
-      "a warning tells is not carried: animation, skins, layers on surfaces, photographs. Environments are "
+      "\nWhat is written is what `laterna render` shows: its pictures are the same, bit for bit, but for "
+      "what\n"
+      "a warning tells is not carried: layers on surfaces, photographs. Clips and paths go along, their "
+      "numbers\n"
+      "in single precision; with --time the file shows that instant and does not move. Environments are "
       "filtered\n"
       "and packed into 8 bits (EXT_lights_image_based), which shows a little. Other programs see\n"
       "projectors as spotlights; what only Laterna knows is in the glTF extensions LATERNA_projector and\n"
@@ -103,7 +108,10 @@ void declare_convert(CLI::App& app, Run& run) {
       "  laterna convert room.glb --rig stage.json -o stage.glb\n"
       "  laterna convert house.obj --up z --unit cm -o house.glb\n"
       "  laterna convert stage.glb -o stage.gltf --embed\n");
-  command->callback([options, &run] { run = [options] { return run_convert(*options); }; });
+  command->callback([options, command, &run] {
+    options->is_still = command->count("--time") > 0;
+    run = [options] { return run_convert(*options); };
+  });
 }
 
 }  // namespace laterna::app

@@ -14,9 +14,9 @@ WriteQueue::~WriteQueue() {
 
 void WriteQueue::add(FinishedPicture picture) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return !waiting_ || error_; });
+  changed_.wait(lock, [&] { return (!next_ && !is_writing_) || error_; });
   if (error_) return;
-  waiting_ = std::move(picture);
+  next_ = std::move(picture);
   changed_.notify_all();
 }
 
@@ -38,11 +38,11 @@ Result<void> WriteQueue::finish() {
 void WriteQueue::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [&] { return waiting_ || is_closing_; });
-    if (!waiting_) return;
-    FinishedPicture picture = std::move(*waiting_);
-    waiting_.reset();
-    changed_.notify_all();
+    changed_.wait(lock, [&] { return next_ || is_closing_; });
+    if (!next_) return;
+    FinishedPicture picture = std::move(*next_);
+    next_.reset();
+    is_writing_ = true;
     lock.unlock();
     const auto start = std::chrono::steady_clock::now();
     double* const write_ms = picture.write_ms;
@@ -51,11 +51,10 @@ void WriteQueue::work() {
       *write_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
     lock.lock();
-    if (written) continue;
-    error_ = std::move(written.error());
-    waiting_.reset();
+    is_writing_ = false;
+    if (!written) error_ = std::move(written.error());
     changed_.notify_all();
-    return;
+    if (error_) return;
   }
 }
 

@@ -20,8 +20,8 @@ struct FinishedPicture {
   double* write_ms = nullptr;  ///< set when it is written; may be null
 };
 
-/// A thread that writes pictures in their order. At most one waits while another is written, so that a series holds three
-/// at a time with the one that is drawn. After an error nothing more is written.
+/// A thread that writes pictures in their order. None waits: a series holds two pictures at a time, one that is drawn and one that is
+/// written, and no more can be lost when it is killed. After an error nothing more is written.
 class WriteQueue {
  public:
   explicit WriteQueue(std::function<Result<void>(FinishedPicture)> write);
@@ -29,7 +29,7 @@ class WriteQueue {
   WriteQueue(const WriteQueue&) = delete;
   WriteQueue& operator=(const WriteQueue&) = delete;
 
-  /// Waits while another picture waits. The picture is lost where one before it could not be written: finish() tells.
+  /// Waits until the picture before is written. The picture is lost where one before it could not be written: finish() tells.
   void add(FinishedPicture picture);
   [[nodiscard]] bool has_failed() const;
   /// Waits until all are written. Error: the first that occurred.
@@ -41,9 +41,9 @@ class WriteQueue {
   std::function<Result<void>(FinishedPicture)> write_;
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
-  std::optional<FinishedPicture> waiting_;
+  std::optional<FinishedPicture> next_;  // until the thread takes it
   std::optional<Error> error_;
-  bool is_closing_ = false;
+  bool is_writing_ = false, is_closing_ = false;
   std::thread thread_;
 };
 

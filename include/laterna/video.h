@@ -27,8 +27,7 @@ struct VideoOptions {
   /// 0 (smallest file) … 100 (best picture), for codecs that lose something; a step of 2 is about one of x264's CRF.
   double quality = 66;
   VideoRate rate = {};
-  /// No more frames than these will be written; 0: not known. Where it is known, an MP4 file has room for its index at its
-  /// beginning: it plays while it is still being loaded, and can be kept when the disk is full.
+  /// No more frames than these will be written; 0: not known.
   std::int64_t most_frames = 0;
 };
 
@@ -46,7 +45,8 @@ std::vector<VideoCodec> list_video_codecs();
 [[nodiscard]] bool is_video_output(const std::filesystem::path& file);
 
 /// Writes a film, frame by frame. The file is written beside its target and renamed into place by finish(); without that,
-/// nothing is left. One call at a time.
+/// nothing is left. Each frame is encoded and in the file when write() returns: of a process that is killed, a hidden file ".film.mp4.….part"
+/// is left, which can be played up to there. One call at a time.
 ///
 /// Frames are 8-bit sRGB: exactly the pixels of a PNG of the same picture. FFV1 and GIFs of at most 256 colours keep them; the
 /// other codecs take limited-range Y'CbCr of BT.709, 4:2:0, each chroma sample the mean of its block of 2 × 2 pixels, rounded
@@ -71,11 +71,11 @@ class VideoWriter {
   Result<void> write(const LayeredImage& picture, float exposure = 1, int threads = 0);
   [[nodiscard]] std::int64_t frames() const;  ///< written so far
 
-  /// Completes the film and puts it in its place. Nothing may be called after it. Error: no frame, or cannot_write.
+  /// Completes the film and puts it in its place: an MP4 file as one piece with its index at its beginning, so that it plays while
+  /// it is being loaded, and as it grew, in fragments, where the disk has no room for both. Nothing may be called after it. Error: no frame, or cannot_write.
   Result<void> finish();
   /// Completes what there is of a film that was broken off, and puts it beside its target, "film.mp4" as
-  /// "film.incomplete.mp4": a target is never half a film. On a full disk, it ends where the disk did; only an MP4
-  /// file without room for its index (VideoOptions::most_frames) could not be played then, and is removed. Returns the file's name.
+  /// "film.incomplete.mp4": a target is never half a film. On a full disk, it ends where the disk did. Returns the file's name.
   /// Error: there is nothing to keep.
   Result<std::filesystem::path> keep_incomplete();
 

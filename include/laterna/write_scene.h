@@ -18,7 +18,7 @@ struct SceneWriteOptions {
 /// Writes the scene as glTF 2.0, by the ending of `file`: .glb or .gltf. load_scene() reads the same scene from it: geometry,
 /// matrices and settings bit for bit, pictures in the bytes of their own files where these are PNG or JPEG. A projector is a
 /// spot with LATERNA_projector, measured lamps are LM-63 files by EXT_lights_ies; films are named, relative to `file`, and
-/// stay where they are. Each file is written beside its target and renamed into place, the scene last. The bytes depend on
+/// stay where they are. Clips go along, numbers of their keys in single precision (docs/animation.md). Each file is written beside its target and renamed into place, the scene last. The bytes depend on
 /// nothing but the scene and the files' names.
 ///
 /// Gives what could not be carried, or not exactly: a light's own function of attenuation, photographs, pictures that no PNG

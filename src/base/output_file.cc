@@ -103,6 +103,19 @@ Result<void> OutputFile::write_at(std::uint64_t offset, std::span<const std::byt
   return {};
 }
 
+Result<std::uint64_t> OutputFile::size() const {
+  struct stat status = {};
+  if (::fstat(descriptor_.get(), &status) != 0)
+    return cannot_write(target_, "cannot write: " + describe_errno(errno));
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+Result<void> OutputFile::truncate(std::uint64_t size) {
+  if (::ftruncate(descriptor_.get(), static_cast<off_t>(size)) != 0)
+    return cannot_write(target_, "cannot write: " + describe_errno(errno));
+  return {};
+}
+
 Result<void> OutputFile::commit_as(const std::filesystem::path& other) {
   std::error_code fault;
   destination_ = std::filesystem::absolute(other, fault);

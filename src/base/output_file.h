@@ -29,6 +29,13 @@ class OutputFile {
   Result<void> write(std::span<const std::byte> bytes);
   /// At an offset from the file's beginning, wherever write() is: not for stdout and pipes.
   Result<void> write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+  /// Where the bytes are until commit(): not for stdout.
+  [[nodiscard]] std::filesystem::path path() const {
+    return temporary_.is_registered() ? std::filesystem::path(temporary_.path()) : destination_;
+  }
+  /// Bytes so far, and what is behind so many given up: not for stdout and pipes.
+  [[nodiscard]] Result<std::uint64_t> size() const;
+  Result<void> truncate(std::uint64_t size);
   /// Puts the file in its place. Nothing may be written after it.
   Result<void> commit();
   /// The same under another name; the target keeps what it held. Not for what is written in place.

@@ -45,21 +45,20 @@ std::shared_ptr<const MeshPose> pose_of(const Scene& scene, const Node& node,
   return std::make_shared<const MeshPose>(std::move(pose));
 }
 
-// Every instance of every primitive; `moves`: at [part], whether its node does. Empty: none.
-std::vector<PlacedPart> place_parts(const Scene& scene, const ClusteredMeshes& meshes,
-                                    const std::vector<glm::dmat4>& world_from_node, Frame& frame,
-                                    std::vector<bool>& moves) {
+// Every instance of every primitive.
+struct PlacedParts {
+  std::vector<PlacedPart> parts;
+  std::vector<std::size_t> nodes;  // of each
+};
+
+PlacedParts place_parts(const Scene& scene, const ClusteredMeshes& meshes,
+                        const std::vector<glm::dmat4>& world_from_node) {
   const auto default_surface = static_cast<std::uint32_t>(scene.materials.size());
-  const std::vector<bool> node_moves = moving_nodes(scene);
-  std::vector<PlacedPart> placed;
+  PlacedParts placed;
+  std::uint32_t object = 0;
   for_each_object(scene, world_from_node,
-                  [&](const Node& node, std::size_t instance, const glm::dmat4& world_from_object) {
-                    const auto object = static_cast<std::uint32_t>(frame.object_names.size());
+                  [&](const Node& node, std::size_t /*instance*/, const glm::dmat4& world_from_object) {
                     const auto mesh = static_cast<std::size_t>(node.mesh);
-                    std::string name = node.name.empty() ? scene.meshes[mesh].name : node.name;
-                    if (!node.node_from_instance.empty()) name += "[" + std::to_string(instance) + "]";
-                    frame.object_names.push_back(std::move(name));
-                    frame.object_scales.push_back(scale_of(world_from_object));
                     const auto pose = pose_of(scene, node, world_from_object, world_from_node);
                     for (std::size_t p = 0; p < meshes[mesh].size(); ++p) {
                       const Primitive& primitive = scene.meshes[mesh].primitives[p];
@@ -71,19 +70,34 @@ std::vector<PlacedPart> place_parts(const Scene& scene, const ClusteredMeshes& m
                       part.surface = primitive.material < 0 ? default_surface
                                                             : static_cast<std::uint32_t>(primitive.material);
                       part.flags = node_flags(node) | material_flags(scene, primitive.material);
-                      placed.push_back(std::move(part));
-                      if (!node_moves.empty())
-                        moves.push_back(node_moves[static_cast<std::size_t>(&node - scene.nodes.data())]);
+                      placed.parts.push_back(std::move(part));
+                      placed.nodes.push_back(static_cast<std::size_t>(&node - scene.nodes.data()));
                     }
+                    ++object;
                   });
   return placed;
 }
 
-// Gives every placed part its run of clusters and vertices, and sizes the arrays.
-void lay_out(std::vector<PlacedPart>& placed, Frame& frame) {
-  std::size_t clusters = 0;
-  std::size_t vertices = 0;
-  std::size_t normals = 0, uvs[2] = {0, 0}, colors = 0, tangents = 0;
+void name_objects(const Scene& scene, const std::vector<glm::dmat4>& world_from_node, Frame& frame) {
+  for_each_object(scene, world_from_node,
+                  [&](const Node& node, std::size_t instance, const glm::dmat4& world_from_object) {
+                    std::string name = node.name.empty()
+                                           ? scene.meshes[static_cast<std::size_t>(node.mesh)].name
+                                           : node.name;
+                    if (!node.node_from_instance.empty()) name += "[" + std::to_string(instance) + "]";
+                    frame.object_names.push_back(std::move(name));
+                    frame.object_scales.push_back(scale_of(world_from_object));
+                  });
+}
+
+// Numbers of all that placed parts have.
+struct Layout {
+  std::size_t clusters = 0, vertices = 0, normals = 0, uvs[2] = {0, 0}, colors = 0, tangents = 0;
+};
+
+// Gives every placed part its run of clusters and vertices.
+Layout lay_out(std::vector<PlacedPart>& placed) {
+  Layout all;
   const auto take = [](std::size_t& next, std::size_t count, bool present) {
     if (!present) return kNoStream;
     const auto first = static_cast<std::uint32_t>(next);
@@ -93,16 +107,20 @@ void lay_out(std::vector<PlacedPart>& placed, Frame& frame) {
   for (PlacedPart& p : placed) {
     const Primitive& primitive = *p.primitive;
     const std::size_t count = p.clustered->source_vertices.size();
-    p.first_cluster = static_cast<std::uint32_t>(clusters);
-    p.first_vertex = static_cast<std::uint32_t>(vertices);
-    clusters += p.clustered->clusters.size();
-    vertices += count;
-    p.streams.normal = take(normals, count, !primitive.normals.empty());
+    p.first_cluster = static_cast<std::uint32_t>(all.clusters);
+    p.first_vertex = static_cast<std::uint32_t>(all.vertices);
+    all.clusters += p.clustered->clusters.size();
+    all.vertices += count;
+    p.streams.normal = take(all.normals, count, !primitive.normals.empty());
     for (std::size_t set = 0; set < 2; ++set)
-      p.streams.uv[set] = take(uvs[set], count, !primitive.uv[set].empty());
-    p.streams.color = take(colors, count, !primitive.colors.empty());
-    p.streams.tangent = take(tangents, count, !primitive.tangents.empty());
+      p.streams.uv[set] = take(all.uvs[set], count, !primitive.uv[set].empty());
+    p.streams.color = take(all.colors, count, !primitive.colors.empty());
+    p.streams.tangent = take(all.tangents, count, !primitive.tangents.empty());
   }
+  return all;
+}
+
+void size_arrays(const Layout& all, Frame& frame) {
   // Kernels load whole vectors, and lanes without a stream read its first cluster's worth.
   constexpr std::size_t kReadable = kVerticesPerCluster + 16;
   const auto size = [](std::initializer_list<AlignedVector<float>*> arrays, std::size_t count) {
@@ -111,14 +129,14 @@ void lay_out(std::vector<PlacedPart>& placed, Frame& frame) {
       std::fill(array->end() - kReadable, array->end(), 0.0F);
     }
   };
-  size({&frame.x_ws, &frame.y_ws, &frame.z_ws}, vertices);
-  size({&frame.normal_x_ws, &frame.normal_y_ws, &frame.normal_z_ws}, normals);
-  for (std::size_t set = 0; set < 2; ++set) size({&frame.uv_u[set], &frame.uv_v[set]}, uvs[set]);
-  size({&frame.color_r, &frame.color_g, &frame.color_b, &frame.color_a}, colors);
-  size({&frame.tangent_x_ws, &frame.tangent_y_ws, &frame.tangent_z_ws, &frame.tangent_sign}, tangents);
-  frame.clusters.resize(clusters);
-  frame.streams.resize(clusters);
-  frame.corners.resize(clusters * kTrianglesPerCluster);
+  size({&frame.x_ws, &frame.y_ws, &frame.z_ws}, all.vertices);
+  size({&frame.normal_x_ws, &frame.normal_y_ws, &frame.normal_z_ws}, all.normals);
+  for (std::size_t set = 0; set < 2; ++set) size({&frame.uv_u[set], &frame.uv_v[set]}, all.uvs[set]);
+  size({&frame.color_r, &frame.color_g, &frame.color_b, &frame.color_a}, all.colors);
+  size({&frame.tangent_x_ws, &frame.tangent_y_ws, &frame.tangent_z_ws, &frame.tangent_sign}, all.tangents);
+  frame.clusters.resize(all.clusters);
+  frame.streams.resize(all.clusters);
+  frame.corners.resize(all.clusters * kTrianglesPerCluster);
 }
 
 // A run of a part's clusters and the vertices that are theirs: what one thread writes at a time, so that one large skin is
@@ -341,14 +359,14 @@ bool is_mirroring(const glm::dmat4& world_from_object) {
 
 void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
                     const std::vector<glm::dmat4>& world_from_node, const TaskPool& pool, Frame& frame) {
-  std::vector<bool> moves;
-  std::vector<PlacedPart> placed = place_parts(scene, meshes, world_from_node, frame, moves);
-  lay_out(placed, frame);
+  PlacedParts placed = place_parts(scene, meshes, world_from_node);
+  name_objects(scene, world_from_node, frame);
+  size_arrays(lay_out(placed.parts), frame);
   std::vector<const PlacedPart*> parts;
-  for (const PlacedPart& part : placed) parts.push_back(&part);
+  for (const PlacedPart& part : placed.parts) parts.push_back(&part);
   const std::vector<PartRange> ranges = split(parts);
   pool.for_each(ranges.size(), [&](std::size_t i, int) { PartWriter(ranges[i], frame).write(); });
-  find_relief_charts(placed, frame);
+  find_relief_charts(placed.parts, frame);
   frame.bounds = bounds_of(frame.clusters);
   frame.has_environment = scene.environment.has_value();
   frame.has_blending = std::any_of(frame.clusters.begin(), frame.clusters.end(),
@@ -359,20 +377,40 @@ void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
   frame.has_blended_casters = std::any_of(frame.clusters.begin(), frame.clusters.end(), is_blended_caster);
   frame.all_receive_shadows = std::all_of(frame.clusters.begin(), frame.clusters.end(),
                                           [](const Cluster& c) { return (c.flags & kReceivesShadow) != 0; });
-  for (std::size_t i = 0; i < moves.size(); ++i) {
-    if (moves[i]) frame.moving_parts.push_back(std::move(placed[i]));
+  const std::vector<bool> moves = moving_nodes(scene);
+  for (std::size_t i = 0; i < placed.parts.size() && !moves.empty(); ++i) {
+    if (moves[placed.nodes[i]]) frame.moving_parts.push_back(std::move(placed.parts[i]));
   }
+}
+
+void let_move(const Scene& scene, const ClusteredMeshes& meshes, const std::vector<bool>& moves,
+              Frame& frame) {
+  PlacedParts placed = place_parts(scene, meshes, world_from_nodes(scene));
+  lay_out(placed.parts);
+  std::vector<PlacedPart> moving;
+  auto known = frame.moving_parts.begin();
+  for (std::size_t i = 0; i < placed.parts.size(); ++i) {
+    PlacedPart& part = placed.parts[i];
+    if (known != frame.moving_parts.end() && known->object == part.object) {
+      moving.push_back(std::move(*known++));
+    } else if (moves[placed.nodes[i]]) {
+      // What is noted about its clusters holds when they are written anew.
+      if (!part.clustered->clusters.empty()) part.flags = frame.clusters[part.first_cluster].flags;
+      moving.push_back(std::move(part));
+    }
+  }
+  frame.moving_parts = std::move(moving);
 }
 
 Reposed repose_meshes(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
                       const TaskPool& pool, Frame& frame) {
   std::vector<const PlacedPart*> moved;
-  const std::vector<bool> node_moves = moving_nodes(scene);
-  if (node_moves.empty()) return {};
+  if (frame.moving_parts.empty()) return {};
   auto part = frame.moving_parts.begin();
+  std::uint32_t object = 0;
   for_each_object(scene, world_from_node,
                   [&](const Node& node, std::size_t /*instance*/, const glm::dmat4& world_from_object) {
-                    if (!node_moves[static_cast<std::size_t>(&node - scene.nodes.data())]) return;
+                    if (part == frame.moving_parts.end() || part->object != object++) return;
                     const auto pose = pose_of(scene, node, world_from_object, world_from_node);
                     frame.object_scales[part->object] = scale_of(world_from_object);
                     const std::size_t parts =

@@ -24,6 +24,11 @@ bool is_mirroring(const glm::dmat4& world_from_object);
 void flatten_meshes(const Scene& scene, const ClusteredMeshes& meshes,
                     const std::vector<glm::dmat4>& world_from_node, const TaskPool& pool, Frame& frame);
 
+/// Adds to the frame's moving parts those of other nodes, before they move for the first time. `moves`: one for each of the scene's nodes.
+/// The scene is as the frame has it.
+void let_move(const Scene& scene, const ClusteredMeshes& meshes, const std::vector<bool>& moves,
+              Frame& frame);
+
 /// Writes those of the frame's moving parts anew whose pose has changed, and the bounds.
 Reposed repose_meshes(const Scene& scene, const std::vector<glm::dmat4>& world_from_node,
                       const TaskPool& pool, Frame& frame);

@@ -8,28 +8,18 @@ namespace {
 
 ReliefField::Axis make_axis(int texels, Wrap wrap) {
   const auto scale = static_cast<float>(texels);
-  switch (wrap) {
-    case Wrap::repeat:
-      return {texels, true, scale, -0.5F};
-    case Wrap::mirror:
-      return {2 * texels, true, scale, -0.5F};
-    case Wrap::clamp:
-      break;
-  }
-  // The outermost texels are there twice, around cells without end.
-  return {texels + 1, false, scale, 0.5F};
+  // Elsewhere than in repetitions the outermost texels are there twice, around cells across which it is level: without end
+  // where the lattice ends, folded in the middle where it is mirrored.
+  return wrap == Wrap::repeat ? ReliefField::Axis{texels, wrap, scale, -0.5F}
+                              : ReliefField::Axis{texels + 1, wrap, scale, 0.5F};
 }
 
 // The texel of each corner.
 std::vector<int> texels_of(const ReliefField::Axis& axis, int texels) {
   std::vector<int> of_corner(static_cast<std::size_t>(axis.cells) + 1);
   for (int i = 0; i <= axis.cells; ++i) {
-    int texel = i - 1;
-    if (axis.repeats) {
-      texel = i % axis.cells;
-      if (texel >= texels) texel = 2 * texels - 1 - texel;
-    }
-    of_corner[static_cast<std::size_t>(i)] = std::clamp(texel, 0, texels - 1);
+    const int texel = axis.wrap == Wrap::repeat ? i % texels : std::clamp(i - 1, 0, texels - 1);
+    of_corner[static_cast<std::size_t>(i)] = texel;
   }
   return of_corner;
 }

@@ -18,13 +18,15 @@ namespace laterna::frame {
 /// far sides. A ray that stays above it passes over all of them in one step (Tevs, Ihrke and Seidel, Maximum mipmaps for fast,
 /// accurate, and scalable dynamic height field rendering, 2008).
 struct ReliefField {
-  /// Levels of kMaxReliefSamples in one row, twice that where it is mirrored.
-  static constexpr std::size_t kMaxLevels = 29;
+  /// Levels of kMaxReliefSamples in one row, and a cell more.
+  static constexpr std::size_t kMaxLevels = 28;
 
   /// How the lattice goes on to one side and the other.
   struct Axis {
     std::int32_t cells = 0;
-    bool repeats = false;  ///< otherwise the outermost cells have no end, and are level across it
+    /// Clamped, the outermost cells have no end, and are level across it. Mirrored, they are level, too, and it is in their
+    /// middles that the lattice is folded: cells beyond are those before, the other way round.
+    Wrap wrap = Wrap::clamp;
     /// Lattice coordinate = texture coordinate · scale + offset; corner i lies at i.
     float scale = 0, offset = 0;
   };

@@ -14,6 +14,7 @@
 #include "frame/frame.h"
 #include "frame/relief_field.h"
 #include "frame/triangle_corners-inl.h"
+#include "laterna/relief.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace laterna::frame::HWY_NAMESPACE {
@@ -23,8 +24,10 @@ using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 // Nodes of the pyramid that a ray visits at most. A ray at 60° meets some dozens; one that has not met the relief after so many
 // ends where it is, above it.
 constexpr int kMostReliefSteps = 2048;
-// Lattice coordinates are held to this, where floats tell half a cell apart.
-constexpr float kMostLattice = 4194304;
+// Ways of rays over the lattice are held to this, and what lies beyond the ends of one that is clamped: twice the widest.
+constexpr float kMostLattice = 2.0F * static_cast<float>(kMaxReliefSamples);
+// Other coordinates are held to this, far beyond where they are told apart: what is left of them fits an integer.
+constexpr float kMostRepeated = 1e15F;
 
 // Coordinates on the lattice.
 struct LatticePoint {
@@ -72,42 +75,76 @@ HWY_INLINE ReliefCoordinates FindReliefCoordinates(const Frame& frame, const Rel
   return {row(0, relief.field->x), row(3, relief.field->y)};
 }
 
-HWY_INLINE FloatVector HeldToLattice(FloatVector v) {
-  return hn::Min(hn::Max(v, Splat(-kMostLattice)), Splat(kMostLattice));
+HWY_INLINE FloatVector HeldTo(float most, FloatVector v) {
+  return hn::Min(hn::Max(v, Splat(-most)), Splat(most));
+}
+
+// Cells after which the lattice comes again.
+HWY_INLINE FloatVector PeriodOf(const ReliefField::Axis& axis) {
+  return Splat(static_cast<float>(axis.wrap == Wrap::mirror ? 2 * (axis.cells - 1) : axis.cells));
+}
+
+// A coordinate of the first repetition where the lattice is the same, so that far from the picture nothing is lost but what
+// texture coordinates themselves lose there.
+HWY_INLINE FloatVector OnLattice(const ReliefField::Axis& axis, FloatVector v) {
+  if (axis.wrap == Wrap::clamp) return HeldTo(kMostLattice, v);
+  const auto period = PeriodOf(axis);
+  const auto held = HeldTo(kMostRepeated, v);
+  return held - hn::Floor(held / period) * period;
 }
 
 HWY_INLINE IntVector FloorToInt(FloatVector v) { return hn::ConvertTo(IntTag(), hn::Floor(v)); }
 HWY_INLINE FloatVector ToFloat(IntVector v) { return hn::ConvertTo(FloatTag(), v); }
 
-// Where a lattice coordinate lies: `tile` counts repetitions, `cell` is within 0 … cells − 1.
+// Where a lattice coordinate lies: in `cell`, within 0 … cells − 1, of a repetition.
 struct LatticePlace {
   FloatVector tile;  // corner 0 of the repetition, in lattice coordinates
+  FloatVector way;   // 1; −1 in repetitions whose cells count down
   IntVector cell;
+
+  // A lattice coordinate, counted from corner 0 the way that cells count.
+  [[nodiscard]] HWY_INLINE FloatVector Within(const ReliefField::Axis& axis, FloatVector p) const {
+    return axis.wrap == Wrap::mirror ? (p - tile) * way : p - tile;
+  }
 };
 HWY_INLINE LatticePlace PlaceOn(const ReliefField::Axis& axis, FloatVector p) {
   const IntTag di;
-  const auto cells = Splat(static_cast<float>(axis.cells));
-  const auto tile = axis.repeats ? hn::Floor(p / cells) * cells : Splat(0.0F);
-  const auto cell = FloorToInt(p - tile);
-  return {tile, hn::Min(hn::Max(cell, hn::Zero(di)), SplatInt(axis.cells - 1))};
+  const auto one = Splat(1.0F);
+  LatticePlace place = {Splat(0.0F), one, hn::Zero(di)};
+  if (axis.wrap != Wrap::clamp) place.tile = hn::Floor(p / PeriodOf(axis)) * PeriodOf(axis);
+  if (axis.wrap == Wrap::mirror) {
+    // Cell `cells` is the one before the last, seen from behind.
+    const auto cells = Splat(static_cast<float>(axis.cells));
+    const auto is_back = p - place.tile >= cells;
+    place.tile = hn::IfThenElse(is_back, place.tile + (Splat(2.0F) * cells - one), place.tile);
+    place.way = hn::IfThenElse(is_back, Splat(-1.0F), one);
+  }
+  place.cell = hn::Min(hn::Max(FloorToInt(place.Within(axis, p)), hn::Zero(di)), SplatInt(axis.cells - 1));
+  return place;
 }
 
 // One direction of a ray's way from node to node.
 struct AxisWalk {
   FloatVector start, step, inverse_step;
-  FloatMask is_forward, is_still;
+  FloatMask is_forward, is_still;  // forward: toward higher cells
   LatticePlace place;
   const ReliefField::Axis* axis;
 
   HWY_INLINE AxisWalk(const ReliefField::Axis& of_axis, FloatVector from, FloatVector by)
-      : start(HeldToLattice(from)), step(HeldToLattice(by)), axis(&of_axis) {
-    is_forward = step > Splat(0.0F);
+      : start(OnLattice(of_axis, from)), step(HeldTo(kMostLattice, by)), axis(&of_axis) {
     is_still = hn::Abs(step) < Splat(1e-12F);
     inverse_step = Splat(1.0F) / hn::IfThenElse(is_still, Splat(1.0F), step);
     place = PlaceOn(of_axis, start);
+    is_forward = StepWithin() > Splat(0.0F);
   }
 
-  [[nodiscard]] HWY_INLINE FloatVector At(FloatVector t) const { return start + step * t; }
+  // Counted as cells count: where the ray is, and its step.
+  [[nodiscard]] HWY_INLINE FloatVector Within(FloatVector t) const {
+    return place.Within(*axis, start + step * t);
+  }
+  [[nodiscard]] HWY_INLINE FloatVector StepWithin() const {
+    return axis->wrap == Wrap::mirror ? step * place.way : step;
+  }
 
   // Cells of the node of a level that holds the present cell: `low` inclusive, `high` exclusive.
   struct Node {
@@ -122,9 +159,10 @@ struct AxisWalk {
   // The depth at which the ray leaves the node.
   [[nodiscard]] HWY_INLINE FloatVector ExitOf(const Node& node) const {
     const auto endless = Splat(std::numeric_limits<float>::infinity());
-    const auto border = hn::IfThenElse(is_forward, ToFloat(node.high), ToFloat(node.low)) + place.tile;
+    const auto side = hn::IfThenElse(is_forward, ToFloat(node.high), ToFloat(node.low));
+    const auto border = (axis->wrap == Wrap::mirror ? side * place.way : side) + place.tile;
     auto is_endless = is_still;
-    if (!axis->repeats) {
+    if (axis->wrap == Wrap::clamp) {
       const auto at_low = hn::RebindMask(FloatTag(), node.low == hn::Zero(IntTag()));
       const auto at_high = hn::RebindMask(FloatTag(), node.high == SplatInt(axis->cells));
       is_endless = hn::Or(is_endless, hn::Or(hn::And(is_forward, at_high), hn::AndNot(is_forward, at_low)));
@@ -138,22 +176,40 @@ struct AxisWalk {
     const IntTag di;
     const auto out = hn::RebindMask(di, leaves), ahead = hn::RebindMask(di, is_forward);
     const auto one = SplatInt(1);
-    const auto inside = hn::Min(hn::Max(FloorToInt(At(t) - place.tile), node.low), node.high - one);
+    const auto inside = hn::Min(hn::Max(FloorToInt(Within(t)), node.low), node.high - one);
     auto beyond = hn::IfThenElse(ahead, node.high, node.low - one);
     const auto border = hn::IfThenElse(ahead, node.high, node.low);
     const auto parent = hn::Shl(SplatInt(2), level) - one;
     auto new_parent = hn::And(border, parent) == hn::Zero(di);
-    if (axis->repeats) {
-      const auto cells = SplatInt(axis->cells);
-      const auto after = hn::And(out, beyond == cells), before = hn::And(out, beyond < hn::Zero(di));
-      const auto side = Splat(static_cast<float>(axis->cells));
-      place.tile = hn::IfThenElse(hn::RebindMask(FloatTag(), after), place.tile + side, place.tile);
-      place.tile = hn::IfThenElse(hn::RebindMask(FloatTag(), before), place.tile - side, place.tile);
-      beyond = hn::IfThenElse(after, hn::Zero(di), hn::IfThenElse(before, cells - one, beyond));
+    if (axis->wrap != Wrap::clamp) {
+      const auto after = hn::And(out, beyond == SplatInt(axis->cells));
+      const auto before = hn::And(out, beyond < hn::Zero(di));
+      beyond = axis->wrap == Wrap::repeat ? Repeated(after, before, beyond) : Folded(after, before, beyond);
       new_parent = hn::Or(new_parent, hn::Or(after, before));
     }
     place.cell = hn::IfThenElse(out, beyond, inside);
     return hn::And(out, new_parent);
+  }
+
+ private:
+  // The cell beyond the last or before the first, in the next repetition, which becomes the place's.
+  HWY_INLINE IntVector Repeated(IntMask after, IntMask before, IntVector beyond) {
+    const auto side = Splat(static_cast<float>(axis->cells));
+    place.tile = hn::IfThenElse(hn::RebindMask(FloatTag(), after), place.tile + side, place.tile);
+    place.tile = hn::IfThenElse(hn::RebindMask(FloatTag(), before), place.tile - side, place.tile);
+    return hn::IfThenElse(after, hn::Zero(IntTag()),
+                          hn::IfThenElse(before, SplatInt(axis->cells - 1), beyond));
+  }
+  // Folded in the middle of the outermost cells, which the ray has crossed, it comes to the one within, the other way round.
+  HWY_INLINE IntVector Folded(IntMask after, IntMask before, IntVector beyond) {
+    const auto past_end = hn::RebindMask(FloatTag(), after), past_start = hn::RebindMask(FloatTag(), before);
+    const auto last = Splat(static_cast<float>(2 * axis->cells - 1));
+    place.tile = hn::IfThenElse(past_end, place.tile + last * place.way, place.tile);
+    place.tile = hn::IfThenElse(past_start, place.tile + place.way, place.tile);
+    const auto turns = hn::Or(past_end, past_start);
+    place.way = hn::IfThenElse(turns, hn::Neg(place.way), place.way);
+    is_forward = StepWithin() > Splat(0.0F);
+    return hn::IfThenElse(after, SplatInt(axis->cells - 2), hn::IfThenElse(before, SplatInt(1), beyond));
   }
 };
 
@@ -172,10 +228,11 @@ HWY_INLINE CellDepths DepthsOf(const ReliefField& field, IntVector x, IntVector 
 
 // The depth of the relief at points of the lattice.
 HWY_INLINE FloatVector ReliefDepthAt(const ReliefField& field, const LatticePoint& p) {
-  const auto px = HeldToLattice(p.x), py = HeldToLattice(p.y);
+  const auto px = OnLattice(field.x, p.x), py = OnLattice(field.y, p.y);
   const LatticePlace x = PlaceOn(field.x, px), y = PlaceOn(field.y, py);
   const CellDepths c = DepthsOf(field, x.cell, y.cell);
-  const auto fx = Saturate(px - x.tile - ToFloat(x.cell)), fy = Saturate(py - y.tile - ToFloat(y.cell));
+  const auto fx = Saturate(x.Within(field.x, px) - ToFloat(x.cell)),
+             fy = Saturate(y.Within(field.y, py) - ToFloat(y.cell));
   const auto above = c.at_00 + (c.at_10 - c.at_00) * fx, below = c.at_01 + (c.at_11 - c.at_01) * fx;
   return above + (below - above) * fy;
 }
@@ -190,14 +247,14 @@ HWY_INLINE CellCrossing CrossCell(const ReliefField& field, const AxisWalk& x, c
                                   FloatVector t, FloatVector t_exit) {
   const auto zero = Splat(0.0F), one = Splat(1.0F), two = Splat(2.0F), four = Splat(4.0F);
   const CellDepths cell = DepthsOf(field, x.place.cell, y.place.cell);
-  const auto fx = x.At(t) - x.place.tile - ToFloat(x.place.cell);
-  const auto fy = y.At(t) - y.place.tile - ToFloat(y.place.cell);
+  const auto fx = x.Within(t) - ToFloat(x.place.cell), fy = y.Within(t) - ToFloat(y.place.cell);
+  const auto step_x = x.StepWithin(), step_y = y.StepWithin();
   const auto along_x = cell.at_10 - cell.at_00, along_y = cell.at_01 - cell.at_00;
   const auto twist = (cell.at_11 - cell.at_10) - along_y;
   const auto depth = cell.at_00 + (fx * along_x + fy * (along_y + fx * twist));
   // Gap between ray and surface at t + s: a s² + b s + c, less than 0 where the ray is above.
-  const auto a = hn::Neg(twist * (x.step * y.step));
-  const auto b = one - ((x.step * along_x + y.step * along_y) + twist * (fx * y.step + fy * x.step));
+  const auto a = hn::Neg(twist * (step_x * step_y));
+  const auto b = one - ((step_x * along_x + step_y * along_y) + twist * (fx * step_y + fy * step_x));
   const auto c = t - depth;
   const auto under = b * b - four * (a * c);
   const auto root = hn::Sqrt(hn::Max(under, zero));

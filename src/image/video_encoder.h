@@ -21,4 +21,10 @@ Result<std::unique_ptr<FilmEncoder>> make_video_encoder(const LaternaVideoPlugin
                                                         const VideoEncoding& encoding,
                                                         const std::string& name);
 
+/// Writes the film in `file` to `output` once more, its frames as they were encoded, as one piece with `container_options`.
+/// `name` as above. Error: cannot_write.
+Result<void> rearrange_video(const LaternaVideoPlugin& plugin, const std::filesystem::path& file,
+                             OutputFile& output, const std::string& container,
+                             const std::string& container_options, const std::string& name);
+
 }  // namespace laterna::image

@@ -97,9 +97,13 @@ struct LaternaVideoPlugin {
   int (*finish)(LaternaVideoOutput* output, char* message, std::size_t message_size);
   /// Writes nothing any more.
   void (*discard)(LaternaVideoOutput* output);
+  /// The same film, its frames as they were encoded, in another arrangement: `container` with `container_options`. `file` holds
+  /// it. 0: `message` says why.
+  int (*rearrange)(const char* file, const char* container, const char* container_options,
+                   const LaternaVideoSink* sink, char* message, std::size_t message_size);
 };
 
-inline constexpr int kVideoInterface = 2;
+inline constexpr int kVideoInterface = 3;
 
 /// The plug-in's one symbol.
 using LaternaVideoEntry = const LaternaVideoPlugin* (*)();

@@ -21,6 +21,11 @@ namespace {
 
 constexpr int kMostGifSide = 65535;
 
+// An MP4 file cannot be read without its index, which is complete when the film is. While it grows it is in fragments, one for each
+// frame, with an index each (ISO/IEC 14496-12, 8.8): it can be read whenever it is broken off. Not all players like such files, so
+// that a film that is finished is written once more in one piece, with its index at its beginning.
+constexpr const char* kMp4InFragments = "movflags=empty_moov+default_base_moof+frag_custom";
+
 // Bytes of an MP4 file's index (ISO/IEC 14496-12, 8.6 and 8.7): of all frames, and of each, which may have an entry in each of
 // the tables of times (8 bytes), offsets of composition (8), key frames (4), sizes (4), chunks (12) and their places (8).
 constexpr std::int64_t kIndexBase = 8192, kIndexPerFrame = 44;
@@ -114,9 +119,7 @@ VideoEncoding encoding_of(const CodecEntry& codec, const std::string& name, int 
         codec.worst_rate_factor + (codec.best_rate_factor - codec.worst_rate_factor) * options.quality / 100;
     encoding.options += fmt::format("\ncrf={}", std::lround(factor));
   }
-  if (encoding.container == "mp4" && options.most_frames > 0)
-    encoding.container_options =
-        fmt::format("moov_size={}", kIndexBase + kIndexPerFrame * options.most_frames);
+  if (encoding.container == "mp4") encoding.container_options = kMp4InFragments;
   encoding.pixels = codec.pixels;
   encoding.width = width;
   encoding.height = height;
@@ -138,11 +141,26 @@ namespace laterna {
 struct VideoWriter::Implementation {
   std::filesystem::path file;
   int width, height;
-  OutputFile output;
+  const LaternaVideoPlugin* plugin;  // null: none is needed
+  std::optional<OutputFile> output;
   std::unique_ptr<image::FilmEncoder> encoder;  // goes before what it writes to
   std::int64_t most_frames;                     // 0: not known
   std::int64_t frames = 0;
-  bool has_failed = false;
+  std::uint64_t whole_bytes = 0;  // of the file, with all frames that are whole
+
+  // An MP4 file's fragments, joined. False: there is no room for both.
+  bool place_as_one_piece() {
+    Result<OutputFile> whole = OutputFile::create(file);
+    if (!whole) return false;
+    const std::string room = fmt::format("moov_size={}", image::kIndexBase + image::kIndexPerFrame * frames);
+    const bool is_placed =
+        image::rearrange_video(*plugin, output->path(), *whole, "mp4", room, file.string()) &&
+        whole->commit();
+    if (!is_placed) return false;
+    encoder.reset();
+    output.reset();
+    return true;
+  }
 };
 
 VideoWriter::VideoWriter(std::unique_ptr<Implementation> implementation)
@@ -161,12 +179,12 @@ Result<VideoWriter> VideoWriter::create(const std::filesystem::path& file, int w
     Result<OutputFile> output = OutputFile::create(file);
     if (!output) return tl::unexpected(std::move(output.error()));
     auto made = std::make_unique<Implementation>(
-        Implementation{file, width, height, std::move(*output), nullptr, options.most_frames});
+        Implementation{file, width, height, plan->plugin, std::move(*output), nullptr, options.most_frames});
     if (plan->plugin == nullptr) {
-      made->encoder = image::make_gif_encoder(made->output, width, height, options.rate);
+      made->encoder = image::make_gif_encoder(*made->output, width, height, options.rate);
     } else {
       auto encoder = image::make_video_encoder(
-          *plan->plugin, made->output, image::encoding_of(*plan->codec, name, width, height, options), name);
+          *plan->plugin, *made->output, image::encoding_of(*plan->codec, name, width, height, options), name);
       if (!encoder) return tl::unexpected(std::move(encoder.error()));
       made->encoder = std::move(*encoder);
     }
@@ -189,9 +207,12 @@ Result<void> VideoWriter::write(const Image& frame) {
     return image::fault(name, fmt::format("the film was to have at most {} frames", film.most_frames));
   return without_exceptions(image::memory_exhausted(name), [&]() -> Result<void> {
     Result<void> written = film.encoder->write(frame);
-    film.has_failed |= !written;
-    if (written) ++film.frames;
-    return written;
+    if (!written) return written;
+    const Result<std::uint64_t> size = film.output->size();
+    if (!size) return tl::unexpected(size.error());
+    ++film.frames;
+    film.whole_bytes = *size;
+    return {};
   });
 }
 
@@ -213,8 +234,10 @@ Result<void> VideoWriter::finish() {
   if (film.frames == 0) return image::fault(name, "a film needs at least one frame");
   return without_exceptions(image::memory_exhausted(name), [&]() -> Result<void> {
     Result<void> finished = film.encoder->finish();
-    film.has_failed |= !finished;
-    return finished ? film.output.commit() : finished;
+    if (!finished) return finished;
+    // Fragments are the film, too.
+    if (image::container_for(name) == "mp4" && film.place_as_one_piece()) return {};
+    return film.output->commit();
   });
 }
 
@@ -223,11 +246,13 @@ Result<std::filesystem::path> VideoWriter::keep_incomplete() {
   const std::string name = film.file.string();
   return without_exceptions(image::memory_exhausted(name), [&]() -> Result<std::filesystem::path> {
     if (film.frames == 0) return image::fault(name, "there is no frame to keep", Failure::cannot_write);
-    const bool is_ended = film.encoder->finish() && !film.has_failed;
-    if (!is_ended && film.most_frames == 0 && image::container_for(name) == "mp4")
-      return image::fault(name, "nothing can be kept of an MP4 file without its end", Failure::cannot_write);
+    // Where the end cannot be written, players do without it, but not all with half a frame.
+    if (!film.encoder->finish()) {
+      if (const Result<void> cut = film.output->truncate(film.whole_bytes); !cut)
+        return tl::unexpected(cut.error());
+    }
     const std::filesystem::path other = image::incomplete_name(film.file);
-    if (const Result<void> kept = film.output.commit_as(other); !kept) return tl::unexpected(kept.error());
+    if (const Result<void> kept = film.output->commit_as(other); !kept) return tl::unexpected(kept.error());
     return other;
   });
 }

@@ -53,30 +53,65 @@ void fit_plane(const frame::Frame& frame, FlatMirror& mirror) {
 
 // Finds how far corners lie off the plane, and says what is wrong with that.
 std::string check_plane(const frame::Frame& frame, FlatMirror& mirror) {
-  glm::dvec3 low(1e300), high(-1e300);
+  glm::dvec3 low(1e300), high(-1e300), worst(0);
   double farthest = 0;
   for_each_triangle(frame, mirror, [&](const auto& corners) {
     for (const glm::dvec3& corner : corners) {
       low = glm::min(low, corner);
       high = glm::max(high, corner);
-      farthest = std::max(farthest, std::abs(glm::dot(mirror.normal_ws, corner) - mirror.offset));
+      const double off = std::abs(glm::dot(mirror.normal_ws, corner) - mirror.offset);
+      if (off > farthest) worst = corner;
+      farthest = std::max(farthest, off);
     }
   });
-  if (glm::length(mirror.normal_ws) == 0) return "has no area";
+  if (glm::length(mirror.normal_ws) == 0) return "has no area, and so no plane";
   const glm::dvec3 sides = high - low, reach = glm::max(glm::abs(low), glm::abs(high));
   const double longest = std::max({sides.x, sides.y, sides.z});
   // Rounding of its corners to single precision.
   mirror.deviation = 2 * farthest + 1e-6 * std::max({reach.x, reach.y, reach.z});
   if (farthest <= kMirrorFlatness * longest) return {};
   return fmt::format(
-      "is not flat: it leaves its plane by {:.3g} m, and is {:.3g} m long; a mirror may by {:.3g}", farthest,
-      longest, kMirrorFlatness * longest);
+      "is not flat: at ({:.4g}, {:.4g}, {:.4g}) it leaves its plane by {:.3g} m, and is {:.3g} m long, so "
+      "that "
+      "{:.3g} m is the most; let its flat parts have a material each, and curved ones mirror the environment",
+      worst.x, worst.y, worst.z, farthest, longest, kMirrorFlatness * longest);
 }
 
-Diagnostic fault_of(const frame::Frame& frame, const FlatMirror& mirror, const std::string& message) {
-  return {mirror.mirror->file, mirror.mirror->place,
-          fmt::format("the mirror of object \"{}\" {}", frame.object_names[mirror.object], message)};
-}
+// What is wrong with the objects that one Mirror belongs to is said of the first, with how many more there are.
+class MirrorFaults {
+ public:
+  explicit MirrorFaults(const frame::Frame& frame) : frame_(frame) {}
+
+  void add(const FlatMirror& mirror, const std::string& message) {
+    Fault& fault = faults_[mirror.mirror];
+    if (++fault.objects > 1) return;
+    order_.push_back(mirror.mirror);
+    fault.object = mirror.object;
+    fault.message = message;
+  }
+  [[nodiscard]] std::vector<Diagnostic> list() const {
+    std::vector<Diagnostic> all;
+    for (const Mirror* mirror : order_) {
+      const Fault& fault = faults_.at(mirror);
+      const std::string more =
+          fault.objects == 1 ? "" : fmt::format("; {} more of its objects are no better", fault.objects - 1);
+      all.push_back({mirror->file, mirror->place,
+                     fmt::format("the mirror of object \"{}\" {}{}", frame_.object_names[fault.object],
+                                 fault.message, more)});
+    }
+    return all;
+  }
+
+ private:
+  struct Fault {
+    std::size_t objects = 0;
+    std::uint32_t object = 0;
+    std::string message;
+  };
+  const frame::Frame& frame_;
+  std::map<const Mirror*, Fault> faults_;
+  std::vector<const Mirror*> order_;
+};
 
 // The part of a convex polygon where `side` is not negative: Sutherland and Hodgman 1974.
 template <class Side>
@@ -91,6 +126,32 @@ std::vector<glm::dvec3> clip(const std::vector<glm::dvec3>& polygon, Side side) 
   return kept;
 }
 
+// Mirrors that lie in one plane do not see one another.
+bool lies_in_plane_of(const frame::Frame& frame, const FlatMirror& mirror, const FlatMirror& other) {
+  const double along = glm::dot(mirror.normal_ws, other.normal_ws);
+  if (std::abs(along) < 0.9) return false;
+  bool is_near = true;
+  for_each_triangle(frame, mirror, [&](const auto& corners) {
+    for (const glm::dvec3& corner : corners) {
+      is_near = is_near && std::abs(glm::dot(other.normal_ws, corner) - other.offset) <=
+                               mirror.deviation + other.deviation;
+    }
+  });
+  return is_near;
+}
+
+void number_planes(const frame::Frame& frame, std::vector<FlatMirror>& mirrors) {
+  for (std::size_t m = 0; m < mirrors.size(); ++m) {
+    mirrors[m].plane = static_cast<int>(m);
+    for (std::size_t k = 0; k < m; ++k) {
+      if (mirrors[k].plane != static_cast<int>(k) || !lies_in_plane_of(frame, mirrors[m], mirrors[k]))
+        continue;
+      mirrors[m].plane = static_cast<int>(k);
+      break;
+    }
+  }
+}
+
 // A view into mirrors, and what it sees of the picture.
 struct Looking {
   View view;
@@ -103,8 +164,8 @@ class MirrorPlanning {
   MirrorPlanning(const frame::Frame& frame, int width, int height)
       : frame_(frame), width_(width), height_(height) {}
 
-  // What `from` sees in the mirror; an empty box: nothing.
-  [[nodiscard]] MirrorView look_into(const FlatMirror& mirror, const Looking& from) const {
+  // What `from` sees in the mirror, or through it; an empty box: nothing.
+  [[nodiscard]] MirrorView look_into(const FlatMirror& mirror, const Looking& from, bool is_refracted) const {
     MirrorView seen;
     const View& view = from.view;
     const bool is_orthographic = view.projection.is_orthographic;
@@ -114,9 +175,11 @@ class MirrorPlanning {
     const double sign = before < 0 ? -1 : 1;
     seen.normal_ws = sign * mirror.normal_ws;
     seen.offset = sign * mirror.offset;
-    seen.tolerance = mirror.deviation;
-    seen.box = mirrored(pixels_of(mirror, from), width_);
-    seen.view = mirrored(view, mirror.normal_ws, mirror.offset);
+    seen.sees_back = before < 0;
+    seen.is_refracted = is_refracted;
+    const PixelBox box = pixels_of(mirror, from);
+    seen.box = is_refracted ? box : mirrored(box, width_);
+    seen.view = is_refracted ? view : mirrored(view, mirror.normal_ws, mirror.offset);
     return seen;
   }
 
@@ -133,9 +196,7 @@ class MirrorPlanning {
         return glm::dot(pose.forward_ws(), p - pose.position_ws) - near;
       });
       if (from.through != nullptr) {
-        const MirrorView& t = *from.through;
-        part = clip(part,
-                    [&](const glm::dvec3& p) { return glm::dot(t.normal_ws, p) - t.offset - t.tolerance; });
+        part = clip(part, [&](const glm::dvec3& p) { return from.through->side(p); });
       }
       for (const glm::dvec3& p : part) {
         const glm::dvec4 image = image_from_world * glm::dvec4(p, 1);
@@ -145,7 +206,8 @@ class MirrorPlanning {
       }
     });
     if (low.x > high.x) return {};
-    const bool is_displaced = mirror.mirror->roughness > 0 || !mirror.mirror->waves.empty();
+    const Mirror& look = *mirror.mirror;
+    const bool is_displaced = look.roughness > 0 || !look.waves.empty() || look.volume.has_value();
     const int reach = is_displaced ? std::max(width_, height_) / 6 : 0;
     // Clamped first: far off the picture numbers need not be whole ones that fit.
     const auto first = [&](double at, int begin) {
@@ -164,6 +226,27 @@ class MirrorPlanning {
   const frame::Frame& frame_;
   int width_, height_;
 };
+
+// What view number `parent` sees in a mirror and through it, as far as there is room.
+void add_looks(const MirrorPlanning& planning, const Looking& from, int parent, int index, MirrorPlan& plan) {
+  const FlatMirror& mirror = plan.mirrors[static_cast<std::size_t>(index)];
+  const MirrorView through = from.through == nullptr ? MirrorView() : *from.through;
+  if (from.through != nullptr && plan.mirrors[static_cast<std::size_t>(through.mirror)].plane == mirror.plane)
+    return;
+  for (const bool is_refracted : {false, true}) {
+    if (is_refracted && !mirror.mirror->volume) continue;
+    if (plan.views.size() >= kMaxMirrorPictures) return;
+    MirrorView seen = planning.look_into(mirror, from, is_refracted);
+    if (seen.box.is_empty()) return;
+    seen.mirror = index;
+    seen.parent = parent;
+    seen.depth = from.through == nullptr ? 1 : through.depth + 1;
+    seen.is_turned = through.is_turned != !is_refracted;
+    seen.reflections = through.reflections;
+    if (!is_refracted) seen.reflections.push_back(index);
+    plan.views.push_back(std::move(seen));
+  }
+}
 
 }  // namespace
 
@@ -184,13 +267,15 @@ Result<std::vector<FlatMirror>> find_mirrors(const frame::Frame& frame) {
     }
     mirrors[place->second].clusters.push_back(i);
   }
-  std::vector<Diagnostic> faults;
+  MirrorFaults faults(frame);
   for (FlatMirror& mirror : mirrors) {
     fit_plane(frame, mirror);
     const std::string fault = check_plane(frame, mirror);
-    if (!fault.empty()) faults.push_back(fault_of(frame, mirror, fault));
+    if (!fault.empty()) faults.add(mirror, fault);
   }
-  if (!faults.empty()) return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+  if (std::vector<Diagnostic> all = faults.list(); !all.empty())
+    return tl::unexpected(Error(Failure::bad_input, std::move(all)));
+  number_planes(frame, mirrors);
   return mirrors;
 }
 
@@ -216,18 +301,11 @@ Result<MirrorPlan> make_mirror_plan(const frame::Frame& frame, const View& view,
   // Breadth first, so that where there are too many the deepest are left out.
   for (int parent = -1; parent < static_cast<int>(plan.views.size()); ++parent) {
     const MirrorView through = parent < 0 ? MirrorView() : plan.views[static_cast<std::size_t>(parent)];
-    const int reached = parent < 0 ? 0 : through.depth;
-    if (reached >= depth) break;
+    if (parent >= 0 && through.depth >= depth) break;
     const Looking from = parent < 0 ? Looking{view, {0, 0, width, height}, nullptr}
                                     : Looking{through.view, through.box, &through};
-    for (std::size_t m = 0; m < plan.mirrors.size() && plan.views.size() < kMaxMirrorPictures; ++m) {
-      if (parent >= 0 && through.mirror == static_cast<int>(m)) continue;
-      MirrorView seen = planning.look_into(plan.mirrors[m], from);
-      if (seen.box.is_empty()) continue;
-      seen.mirror = static_cast<int>(m);
-      seen.parent = parent;
-      seen.depth = reached + 1;
-      plan.views.push_back(seen);
+    for (std::size_t m = 0; depth > 0 && m < plan.mirrors.size(); ++m) {
+      add_looks(planning, from, parent, static_cast<int>(m), plan);
     }
   }
   return plan;

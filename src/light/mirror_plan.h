@@ -1,6 +1,7 @@
-// What mirrors show in a picture: an ordered tree of views that depend on one another. docs/mirrors.md
+// What mirrors and water show in a picture: an ordered tree of views that depend on one another. docs/mirrors.md
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -18,10 +19,11 @@ struct FlatMirror {
   double deviation = 0;     ///< metres that corners lie off the plane, or a little more than rounding
   bool double_sided = false;
   std::uint32_t surface = 0, object = 0;
+  int plane = 0;  ///< the first mirror that lies in the same plane, as far as deviations tell: an index
   std::vector<std::uint32_t> clusters;
 };
 
-/// In the frame's order. Error: one that is not flat (kMirrorFlatness), at the place where its Mirror is written.
+/// In the frame's order. Error: those that are not flat (kMirrorFlatness), at the places where their Mirrors are written.
 Result<std::vector<FlatMirror>> find_mirrors(const frame::Frame& frame);
 
 /// The view as the mirror has it: what it sees at a pixel, `view` sees by the mirror at the pixel as far from the opposite
@@ -38,16 +40,27 @@ inline PixelBox mirrored(const PixelBox& box, int width) {
   return {width - box.x_end, box.y_begin, width - box.x_begin, box.y_end};
 }
 
-/// What one mirror shows to a view.
+/// What one mirror shows to a view: what it mirrors, or what lies behind it.
 struct MirrorView {
   int mirror = -1;  ///< index into MirrorPlan::mirrors
   int parent = -1;  ///< the view that looks into it: index into MirrorPlan::views, −1: the picture's own
   int depth = 1;    ///< mirrors on the way
-  View view;        ///< of the mirrored picture
-  PixelBox box;     ///< of the mirrored picture, what its parent needs
-  glm::dvec3 normal_ws{0};  ///< toward the parent's eye; what lies behind is not seen
-  double offset = 0;
-  double tolerance = 0;  ///< metres: what lies no farther before the plane is the mirror itself
+  bool is_refracted = false;  ///< seen through the surface (Mirror::volume): the view is the parent's own
+  bool is_turned =
+      false;  ///< its left is the picture's right: there is an odd number of reflections on the way
+  bool sees_back = false;   ///< of the mirror: the parent's eye is where its volume is
+  View view;                ///< of the mirrored picture
+  PixelBox box;             ///< of the mirrored picture, what its parent needs
+  glm::dvec3 normal_ws{0};  ///< toward the parent's eye
+  double offset = 0;        ///< of the plane: normal_ws · position = offset
+  /// Reflections on the way, as numbers of mirrors: which view it is, in other pictures too. Refraction leaves the view as it is.
+  std::vector<int> reflections;
+
+  /// Not negative where what it shows lies, metres from the plane: before the mirror, or behind it where it is refracted.
+  [[nodiscard]] double side(const glm::dvec3& position_ws) const {
+    const double before = glm::dot(normal_ws, position_ws) - offset;
+    return is_refracted ? -before : before;
+  }
 };
 
 struct MirrorPlan {

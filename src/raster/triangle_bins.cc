@@ -201,6 +201,7 @@ std::vector<OrderedCluster> visible_clusters(const RasterView& view, std::span<c
   for (std::uint32_t i = 0; i < clusters.size(); ++i) {
     if ((clusters[i].flags & options.required_flags) != options.required_flags) continue;
     if ((clusters[i].flags & options.excluded_flags) != 0) continue;
+    if (options.left_out != nullptr && (*options.left_out)[i]) continue;
     const auto [place, nearest] = placer.place(clusters[i]);
     if (place == ClusterPlace::outside) continue;
     visible.push_back({static_cast<float>(nearest), i, place == ClusterPlace::crossing});

@@ -119,11 +119,10 @@ enum class CullFaces : std::uint8_t {
   front,         ///< front faces of closed meshes: "render back faces into the map" (row 81)
 };
 
-/// What lies behind a plane is not drawn: normal · position < offset. Nor are triangles of which no corner is more than
-/// `tolerance` before it, such as those of a mirror in its own picture.
+/// What lies behind a plane is not drawn: normal · position < offset.
 struct CuttingPlane {
   glm::dvec3 normal_ws{0};
-  double offset = 0, tolerance = 0;  ///< metres
+  double offset = 0;  ///< metres
   [[nodiscard]] double side(const glm::dvec3& position_ws) const {
     return normal_ws.x * position_ws.x + normal_ws.y * position_ws.y + normal_ws.z * position_ws.z - offset;
   }
@@ -139,6 +138,8 @@ struct BinOptions {
   int sample_reach = 0;                  ///< largest sample offset from the pixel centre, in 1/256 pixel
   InstructionSet instruction_set = InstructionSet::scalar;
   const CuttingPlane* cut = nullptr;  ///< null: nothing is cut; must stay while triangles are binned
+  /// By cluster, those that are left out: a mirror in its own picture. Null: none; must stay likewise.
+  const std::vector<bool>* left_out = nullptr;
 };
 
 struct BinStatistics {

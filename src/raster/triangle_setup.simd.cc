@@ -202,21 +202,12 @@ WideParts PartsOf(const SetupTask& task, const WideCorners& corners, std::span<c
           id, KindOf(task.geometry->clusters[task.cluster], *task.options)};
 }
 
-bool IsBehind(const CuttingPlane* cut, const WideCorners& corners) {
-  if (cut == nullptr) return false;
-  for (const ClipVertex& corner : corners.clip) {
-    if (corner.cut_side > cut->tolerance) return false;
-  }
-  return true;
-}
-
 // Any triangle of a cluster that crosses the near plane, the guard band or a cutting plane.
 void SetUpClipped(const SetupTask& task, const ScreenVertices& screen, std::uint32_t triangle, Batch& batch) {
   const RasterView& view = *task.setup->view;
   const Cluster& cluster = task.geometry->clusters[task.cluster];
   const TriangleId id = task.cluster << kTriangleBits | triangle;
   const WideCorners corners = LoadWideCorners(task, id);
-  if (IsBehind(task.options->cut, corners)) return;
   const ClippedPolygon polygon = clip_triangle(corners.clip, kGuardBand, task.options->cut != nullptr);
   if (polygon.count < 3) return;
 

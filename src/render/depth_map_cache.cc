@@ -104,11 +104,11 @@ bool DepthMapCache::update(KeptMap& kept, Found& found) const {
   return true;
 }
 
-DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& key,
+DepthMapCache::Found DepthMapCache::find(const DepthMapOwner& owner, const DepthMapKey& key,
                                          const DrawContext& context, bool anew, std::size_t& working_bytes,
                                          const std::function<bool()>& asks_to_stop) {
   std::unique_lock list_lock(mutex_);
-  Entry& entry = entries_[light];  // stays where it is
+  Entry& entry = entries_[owner];  // stays where it is
   entry.used = ++uses_;
   list_lock.unlock();
   const std::lock_guard lock(entry.mutex);
@@ -135,7 +135,7 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
     if (maps[i].map == nullptr) {
       ++found.made;
       DrawContext own = context;
-      own.bins_owner = 1 + shadow::kMostMaps * light + i;  // the camera's is 0
+      own.bins_owner = 1 + shadow::kMostMaps * owner.light + i;  // the camera's is 0
       maps[i] = make(key.views[i], key, own);
     }
     shadow::DepthMap& map = *maps[i].map;
@@ -151,18 +151,48 @@ DepthMapCache::Found DepthMapCache::find(std::size_t light, const DepthMapKey& k
   return found;
 }
 
+// Maps that a picture uses are not freed: their owners hold them by more than one pointer.
+void DepthMapCache::make_room(std::size_t most_bytes) {
+  const std::lock_guard list_lock(mutex_);
+  struct Idle {
+    std::uint64_t used;
+    std::size_t bytes;
+    Entry* entry;
+    std::unique_lock<std::mutex> lock;
+  };
+  std::vector<Idle> idle;
+  std::size_t bytes = 0;
+  for (auto& [owner, entry] : entries_) {
+    std::unique_lock lock(entry.mutex, std::try_to_lock);
+    if (!lock) continue;
+    const bool is_used =
+        std::ranges::any_of(entry.maps, [](const KeptMap& kept) { return kept.map.use_count() > 1; });
+    std::size_t own = 0;
+    for (const KeptMap& kept : entry.maps) own += is_used ? kept.map->memory_bytes() : kept.bytes();
+    bytes += own;
+    if (!is_used && own > 0) idle.push_back({entry.used, own, &entry, std::move(lock)});
+  }
+  std::ranges::sort(idle, {}, &Idle::used);
+  for (Idle& oldest : idle) {
+    if (bytes <= most_bytes) break;
+    bytes -= oldest.bytes;
+    oldest.entry->maps.clear();
+  }
+  if (!idle.empty()) outworn_.clear();
+}
+
 // Lists would take memory, of which there may be none left.
 void DepthMapCache::rest(std::size_t most_bytes) {
   const std::lock_guard list_lock(mutex_);
   std::size_t bytes = 0;
-  for (auto& [light, entry] : entries_) {
+  for (auto& [owner, entry] : entries_) {
     for (const KeptMap& kept : entry.maps) {
       if (kept.map->is_complete()) kept.map->rest();
       bytes += kept.bytes();
     }
   }
   // What is sorted is made again sooner than maps are.
-  for (auto& [light, entry] : entries_) {
+  for (auto& [owner, entry] : entries_) {
     for (const KeptMap& kept : entry.maps) {
       if (bytes <= most_bytes) break;
       bytes -= kept.bytes();
@@ -172,13 +202,14 @@ void DepthMapCache::rest(std::size_t most_bytes) {
   }
   while (bytes > most_bytes) {
     Entry* longest_unused = nullptr;
-    for (auto& [light, entry] : entries_) {
+    for (auto& [owner, entry] : entries_) {
       const bool is_older = longest_unused == nullptr || entry.used < longest_unused->used;
       if (!entry.maps.empty() && is_older) longest_unused = &entry;
     }
     for (const KeptMap& kept : longest_unused->maps) bytes -= kept.bytes();
     longest_unused->maps.clear();
   }
+  std::erase_if(entries_, [](const auto& owned) { return owned.second.maps.empty(); });
   outworn_.clear();
   kept_bytes_ = bytes;
 }

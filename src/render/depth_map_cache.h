@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -49,6 +50,15 @@ shadow::DepthMap draw_depth_map(const DrawContext& context, const light::ShadowV
 void draw_tiles(shadow::DepthMap& map, const TaskPool& pool, StageTimes& times,
                 const std::function<bool()>& asks_to_stop);
 
+/// Whose maps they are.
+struct DepthMapOwner {
+  std::size_t light = 0;
+  /// Of maps that follow the camera: the mirrored view that they are for (light::MirrorView::reflections). Else empty, so that all
+  /// views share them.
+  std::vector<int> reflections;
+  auto operator<=>(const DepthMapOwner&) const = default;
+};
+
 /// May be asked by several pictures at once, but not while the frame changes.
 class DepthMapCache {
  public:
@@ -60,12 +70,14 @@ class DepthMapCache {
     int made = 0, updated = 0;     // the others were kept as they were
     std::uint64_t tiles_kept = 0;  // drawn for earlier pictures, and still so
   };
-  /// The maps of light `light`, made anew if those kept are of something else; where casters have moved in them, tiles that
-  /// those touch are forgotten. Callers that ask for the same light at the same time wait. `anew`: in any case.
+  /// The owner's maps, made anew if those kept are of something else; where casters have moved in them, tiles that
+  /// those touch are forgotten. Callers that ask for the same owner at the same time wait. `anew`: in any case.
   /// `working_bytes`: of the picture's maps so far. `asks_to_stop` is called between tiles; once it says so, maps may have
   /// tiles that are not drawn.
-  Found find(std::size_t light, const DepthMapKey& key, const DrawContext& context, bool anew,
+  Found find(const DepthMapOwner& owner, const DepthMapKey& key, const DrawContext& context, bool anew,
              std::size_t& working_bytes, const std::function<bool()>& asks_to_stop);
+  /// While pictures are drawn: the same as rest(), of maps that none of them uses now.
+  void make_room(std::size_t most_bytes);
   /// When nobody draws: frees what is not needed for maps that are complete, then what was not used for longest, until no
   /// more than `most_bytes` are kept.
   void rest(std::size_t most_bytes);
@@ -105,7 +117,7 @@ class DepthMapCache {
   std::mutex mutex_;                     // of the list
   std::uint64_t uses_ = 0;
   std::atomic<std::size_t> kept_bytes_ = 0;
-  std::map<std::size_t, Entry> entries_;
+  std::map<DepthMapOwner, Entry> entries_;
 };
 
 }  // namespace laterna::render

@@ -4,10 +4,11 @@
 
 namespace laterna::render {
 
-MirrorDrawing::MirrorDrawing(const frame::Frame& frame, const light::MirrorPlan& plan, int width,
+MirrorDrawing::MirrorDrawing(const frame::Frame& frame, const light::MirrorPlan& plan, int width, int height,
                              double seconds, DrawPart draw_part)
     : plan_(plan),
       width_(width),
+      height_(height),
       seconds_(seconds),
       draw_part_(std::move(draw_part)),
       mirror_of_cluster_(frame.clusters.size(), -1) {
@@ -20,30 +21,45 @@ MirrorDrawing::MirrorDrawing(const frame::Frame& frame, const light::MirrorPlan&
 shade::MirrorJob MirrorDrawing::draw_seen_by(int parent) const {
   shade::MirrorJob job;
   for (std::size_t i = 0; i < plan_.views.size(); ++i) {
-    if (plan_.views[i].parent != parent) continue;
-    job.pictures.resize(plan_.mirrors.size());
-    job.pictures[static_cast<std::size_t>(plan_.views[i].mirror)] = draw_picture(static_cast<int>(i));
+    const light::MirrorView& seen = plan_.views[i];
+    if (seen.parent != parent) continue;
+    job.shown.resize(plan_.mirrors.size());
+    shade::MirrorPictures& pictures = job.shown[static_cast<std::size_t>(seen.mirror)];
+    (seen.is_refracted ? pictures.refracted : pictures.mirrored) = draw_picture(static_cast<int>(i));
   }
-  if (!job.pictures.empty()) job.mirror_of_cluster = mirror_of_cluster_;
+  if (!job.shown.empty()) job.mirror_of_cluster = mirror_of_cluster_;
   return job;
+}
+
+// Neither the mirror itself nor what lies in one plane with it is in its picture; what is stuck to it is.
+std::vector<bool> MirrorDrawing::clusters_in_plane_of(int mirror) const {
+  std::vector<bool> in_plane(mirror_of_cluster_.size());
+  const int plane = plan_.mirrors[static_cast<std::size_t>(mirror)].plane;
+  for (const light::FlatMirror& other : plan_.mirrors) {
+    if (other.plane != plane) continue;
+    for (const std::uint32_t cluster : other.clusters) in_plane[cluster] = true;
+  }
+  return in_plane;
 }
 
 // First what is seen in it, so that few pictures are held at a time.
 std::unique_ptr<const shade::MirrorPicture> MirrorDrawing::draw_picture(int index) const {
   const light::MirrorView& seen = plan_.views[static_cast<std::size_t>(index)];
   const Mirror& mirror = *plan_.mirrors[static_cast<std::size_t>(seen.mirror)].mirror;
-  auto picture = std::make_unique<shade::MirrorPicture>(seen, mirror, width_, seconds_);
+  auto picture = std::make_unique<shade::MirrorPicture>(seen, mirror, width_, height_, seconds_);
   shade::MirrorJob within = draw_seen_by(index);
-  const raster::CuttingPlane cut = {seen.normal_ws, seen.offset, seen.tolerance};
+  const double sign = seen.is_refracted ? -1 : 1;
+  const raster::CuttingPlane cut = {sign * seen.normal_ws, sign * seen.offset};
+  const std::vector<bool> left_out = clusters_in_plane_of(seen.mirror);
   PicturePart part;
   part.pixels = {seen.box.x_begin, seen.box.y_begin, seen.box.x_end, seen.box.y_end};
   part.cut = &cut;
+  part.left_out = &left_out;
   part.write = [&](int tile_x, int tile_y, const shade::TileResult& tile) {
     picture->write(tile_x, tile_y, tile);
   };
   part.wants_depth = picture->needs_depth();
-  part.is_mirrored = true;
-  part.is_turned = seen.depth % 2 == 1;
+  part.seen = &seen;
   draw_part_(seen.view, part, std::move(within));
   picture->finish();
   return picture;

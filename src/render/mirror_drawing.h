@@ -1,8 +1,9 @@
-// Pictures of what mirrors show, the deepest first, each drawn from those that it depends on.
+// Pictures of what mirrors and water show, the deepest first, each drawn from those that it depends on.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "light/mirror_plan.h"
 #include "raster/triangle_bins.h"
@@ -13,14 +14,13 @@ namespace laterna::render {
 /// A part of a picture, and where its tiles go.
 struct PicturePart {
   raster::Rect pixels;
-  const raster::CuttingPlane* cut = nullptr;  ///< null: nothing is cut
+  const raster::CuttingPlane* cut = nullptr;    ///< null: nothing is cut
+  const std::vector<bool>* left_out = nullptr;  ///< by cluster, what is not drawn; null: all is
   /// Called from several threads at once, with tiles that `pixels` touch.
   std::function<void(int tile_x, int tile_y, const shade::TileResult&)> write;
   bool wants_depth = false;  ///< WantedLayers::geometry; the picture's other layers are its own affair
-  bool is_mirrored = false;
-  std::uint32_t excluded_flags = 0;  ///< no clusters with any of these
-  bool is_turned =
-      false;  ///< its left is the right of the picture that it is drawn for: by an odd number of mirrors
+  std::uint32_t excluded_flags = 0;         ///< no clusters with any of these
+  const light::MirrorView* seen = nullptr;  ///< what it is of; null: the picture's own view
 };
 
 class MirrorDrawing {
@@ -28,9 +28,9 @@ class MirrorDrawing {
   /// Draws a part of a view's picture with those mirrors in it.
   using DrawPart = std::function<void(const View& view, const PicturePart& part, shade::MirrorJob mirrors)>;
 
-  /// All must outlive it. `width`: of the picture, in pixels; `seconds`: scene time, which moves waves.
-  MirrorDrawing(const frame::Frame& frame, const light::MirrorPlan& plan, int width, double seconds,
-                DrawPart draw_part);
+  /// All must outlive it. Width and height: of the picture, in pixels; `seconds`: scene time, which moves waves.
+  MirrorDrawing(const frame::Frame& frame, const light::MirrorPlan& plan, int width, int height,
+                double seconds, DrawPart draw_part);
 
   /// The mirrors in the picture's own view.
   [[nodiscard]] shade::MirrorJob draw() const { return draw_seen_by(-1); }
@@ -38,9 +38,10 @@ class MirrorDrawing {
  private:
   [[nodiscard]] shade::MirrorJob draw_seen_by(int parent) const;
   [[nodiscard]] std::unique_ptr<const shade::MirrorPicture> draw_picture(int index) const;
+  [[nodiscard]] std::vector<bool> clusters_in_plane_of(int mirror) const;
 
   const light::MirrorPlan& plan_;
-  int width_;
+  int width_, height_;
   double seconds_;
   DrawPart draw_part_;
   std::vector<int> mirror_of_cluster_;

@@ -183,7 +183,8 @@ shade::PhotographJob PictureDrawer::make_photograph_job(const raster::RasterView
 
 // Everything the tiles share, with every shadow technique ready to answer.
 shade::ShaderJob PictureDrawer::make_job(const raster::RasterView& view, const RenderSettings& settings,
-                                         const PicturePlan& planned_picture, RenderStatistics& statistics,
+                                         const PicturePlan& planned_picture,
+                                         const std::vector<int>& reflections, RenderStatistics& statistics,
                                          ProgressReport& progress) const {
   shade::ShaderJob job;
   job.frame = &frame();
@@ -204,7 +205,7 @@ shade::ShaderJob PictureDrawer::make_job(const raster::RasterView& view, const R
   job.instruction_set = instruction_set_;
   const raster::RasterView::Ray ray = view.homogeneous_ray();
   ShadowCasting casting({frame(), pool_, instruction_set_, bins_, maps_, paraboloids_, posed_.casters(), view,
-                         settings, statistics, progress});
+                         settings, statistics, progress, reflections});
   job.photographs = make_photograph_job(ray, settings, planned_picture.photographs, casting);
   job.decals = make_decals(ray, settings, planned_picture.decals, casting);
   add_lights(ray, settings, planned_picture.lights, casting, progress, job);
@@ -247,6 +248,7 @@ void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSetti
   options.cut_flags = kAlphaMask | kRelief;
   options.instruction_set = instruction_set_;
   options.cut = part.cut;
+  options.left_out = part.left_out;
   for (const shade::SampleOffset& offset : shade::sample_offsets(settings.samples, job.jitter)) {
     options.sample_reach = std::max({options.sample_reach, std::abs(offset.x), std::abs(offset.y)});
   }
@@ -275,7 +277,7 @@ void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSetti
       encode_watch.start();
       part.write(x, y, tile);
       encode_ms[static_cast<std::size_t>(worker)] += encode_watch.lap_ms();
-      if (!part.is_mirrored) progress.advance();
+      if (part.seen == nullptr) progress.advance();
     });
     statistics.shade_ms += watch.lap_ms();
   }
@@ -328,9 +330,11 @@ Result<void> PictureDrawer::draw_part(const View& from, const RenderSettings& se
       light::make_decal_plan(frame(), settings.shadows)};
   statistics.plan_ms += watch.lap_ms();
   const raster::RasterView view(from, settings.width, settings.height);
-  shade::ShaderJob job = make_job(view, settings, plan, statistics, progress);
+  const std::vector<int> reflections = part.seen != nullptr ? part.seen->reflections : std::vector<int>();
+  if (frame().has_mirrors) maps_.make_room(cache_bytes_);
+  shade::ShaderJob job = make_job(view, settings, plan, reflections, statistics, progress);
   job.jitter = jitter_of(sample);
-  if (part.is_turned) job.jitter.x = std::min(-job.jitter.x, 127);
+  if (part.seen != nullptr && part.seen->is_turned) job.jitter.x = std::min(-job.jitter.x, 127);
   job.mirrors = std::move(mirrors);
   if (part.wants_depth) job.wanted.geometry = true;
   statistics.shadow_ms += watch.lap_ms();
@@ -341,7 +345,7 @@ Result<void> PictureDrawer::draw_part(const View& from, const RenderSettings& se
     job.lobes.behind = &behind.emplace(std::move(*drawn));
   }
   if (!progress.is_cancelled()) draw_bands(view, settings, job, part, statistics, progress);
-  if (part.is_mirrored) {
+  if (part.seen != nullptr) {
     ++statistics.mirror_pictures;
     return {};
   }
@@ -364,7 +368,8 @@ Result<shade::MirrorJob> PictureDrawer::draw_mirrors(const View& from, const Ren
     if (outcome && !progress.asks_to_stop())
       outcome = draw_part(view, plain, sample, part, std::move(within), statistics, progress);
   };
-  shade::MirrorJob mirrors = MirrorDrawing(frame(), *plan, settings.width, posed_.time(), draw_one).draw();
+  shade::MirrorJob mirrors =
+      MirrorDrawing(frame(), *plan, settings.width, settings.height, posed_.time(), draw_one).draw();
   if (!outcome) return tl::unexpected(std::move(outcome.error()));
   return mirrors;
 }
@@ -409,6 +414,8 @@ Result<RenderStatistics> PictureDrawer::draw_mean(const View& from, const Render
     const SampleIndex sample = {i, settings.accumulate};
     const Result<View> view = destination.expose != nullptr ? (*destination.expose)(sample) : from;
     if (!view) return tl::unexpected(view.error());
+    if (Result<void> checked = check_settings(settings, *view); !checked)
+      return tl::unexpected(checked.error());
     const Result<PictureWriter> writer = PictureWriter::create(
         pictures.picture_settings(), pictures.picture_target(), frame(), instruction_set_);
     const Result<RenderStatistics> one =

@@ -87,7 +87,8 @@ class PictureDrawer {
                                                          const light::PhotographPlan& plan,
                                                          ShadowCasting& casting) const;
   [[nodiscard]] shade::ShaderJob make_job(const raster::RasterView& view, const RenderSettings& settings,
-                                          const PicturePlan& planned_picture, RenderStatistics& statistics,
+                                          const PicturePlan& planned_picture,
+                                          const std::vector<int>& reflections, RenderStatistics& statistics,
                                           ProgressReport& progress) const;
   void add_lights(const raster::RasterView::Ray& ray, const RenderSettings& settings,
                   const light::LightPlan& plan, ShadowCasting& casting, ProgressReport& progress,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/refuse.h"
+#include "frame/flatten.h"
 #include "frame/place_lights.h"
 #include "render/memory_guard.h"
 #include "render/settings_check.h"
@@ -62,6 +63,7 @@ Result<void> PosedScene::rebuild() {
   Result<frame::Frame> built = frame::Frame::build(scene_, textures_, meshes_, pool_);
   if (!built) return tl::unexpected(std::move(built.error()));
   frame_ = std::move(*built);
+  may_move_.assign(scene_.nodes.size(), false);
   forget_casters();
   return {};
 }
@@ -74,6 +76,15 @@ void PosedScene::forget_casters() {
 // Everything that clips move, where it is at a time. Lights and cameras are still to be placed.
 Result<PoseChanges> PosedScene::pose(double seconds) {
   const PoseChanges changes = poses_.apply(scene_, seconds);
+  if (const Result<void> followed = follow(changes); !followed) {
+    return_to(time_);
+    return tl::unexpected(followed.error());
+  }
+  return changes;
+}
+
+// The frame as the scene is now.
+Result<void> PosedScene::follow(const PoseChanges& changes) {
   const CasterChanges::Before before = CasterChanges::look_at(frame_);
   bool casters_changed = false;
   std::vector<bool> other_cut_outs;
@@ -87,14 +98,7 @@ Result<PoseChanges> PosedScene::pose(double seconds) {
   }
   if (changes.nodes) {
     const Result<frame::Reposed> reposed = frame_.repose(scene_, pool_);
-    if (!reposed) {
-      // As it was before, which was sound.
-      poses_.apply(scene_, time_);
-      frame_.make_surfaces(scene_);
-      static_cast<void>(frame_.repose(scene_, pool_));
-      forget_casters();
-      return tl::unexpected(reposed.error());
-    }
+    if (!reposed) return tl::unexpected(reposed.error());
     posing_.primitives_posed += reposed->parts;
     posing_.vertices_posed += reposed->vertices;
     casters_changed |= reposed->moves_casters;
@@ -107,44 +111,55 @@ Result<PoseChanges> PosedScene::pose(double seconds) {
       casters_.forget_movers();
     }
   }
-  return changes;
+  return {};
 }
 
-// Whether a mesh hangs on the node or below it, or may hang on it by a skin.
-bool PosedScene::carries_mesh(int node) const {
-  if (!scene_.skins.empty()) return true;
-  for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
-    if (scene_.nodes[i].mesh < 0) continue;
-    for (int n = static_cast<int>(i); n >= 0; n = scene_.nodes[static_cast<std::size_t>(n)].parent) {
-      if (n == node) return true;
-    }
+// As it was before, which was sound.
+void PosedScene::return_to(double seconds) {
+  poses_.apply(scene_, seconds);
+  frame_.make_surfaces(scene_);
+  static_cast<void>(frame_.repose(scene_, pool_));
+  forget_casters();
+}
+
+// The first time that a caller moves a node, what hangs on it joins what clips move. False: no mesh does.
+bool PosedScene::let_move(int node) {
+  const std::vector<bool> moves = nodes_moved_by(scene_, node);
+  bool has_meshes = false, is_first = false;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    if (!moves[i] || scene_.nodes[i].mesh < 0) continue;
+    has_meshes = true;
+    is_first |= !may_move_[i];
+    may_move_[i] = true;
   }
-  return false;
+  if (is_first) frame::let_move(scene_, meshes_, moves, frame_);
+  return has_meshes;
 }
 
 Result<void> PosedScene::set_transform(int node, const glm::dmat4& parent_from_node) {
   if (node < 0 || static_cast<std::size_t>(node) >= scene_.nodes.size()) {
     return refuse("the scene has no node " + std::to_string(node));
   }
-  glm::dmat4& place = scene_.nodes[static_cast<std::size_t>(node)].parent_from_node;
-  const glm::dmat4 before = place;
-  place = parent_from_node;
-  std::vector<Diagnostic> faults = validate(scene_);
-  if (faults.empty()) {
+  return guarded([&]() -> Result<void> {
+    const bool moves_meshes = let_move(node);
+    glm::dmat4& place = scene_.nodes[static_cast<std::size_t>(node)].parent_from_node;
+    const glm::dmat4 before = place;
+    place = parent_from_node;
+    if (std::vector<Diagnostic> faults = validate(scene_); !faults.empty()) {
+      place = before;
+      return tl::unexpected(Error(Failure::bad_input, std::move(faults)));
+    }
     poses_.set_node(node, parent_from_node);
     poses_.apply(scene_, time_);
-    if (!carries_mesh(node)) {
-      frame_.place_lights_and_cameras(scene_);
-      return {};
+    if (Result<void> followed = follow({.nodes = moves_meshes}); !followed) {
+      place = before;
+      poses_.set_node(node, before);
+      return_to(time_);
+      return followed;
     }
-  }
-  Result<void> built = faults.empty() ? guarded([&] { return rebuild(); })
-                                      : tl::unexpected(Error(Failure::bad_input, std::move(faults)));
-  if (!built) {
-    place = before;
-    poses_.set_node(node, before);
-  }
-  return built;
+    frame_.place_lights_and_cameras(scene_);
+    return {};
+  });
 }
 
 Result<void> PosedScene::set_light(int light, Light value) {

@@ -42,8 +42,10 @@ class PosedScene {
   void tell_warnings();
   Result<void> rebuild();
   Result<PoseChanges> pose(double seconds);
+  Result<void> follow(const PoseChanges& changes);
+  void return_to(double seconds);
+  bool let_move(int node);
   void forget_casters();
-  [[nodiscard]] bool carries_mesh(int node) const;
 
   Scene scene_;  // as it is posed now
   const TaskPool& pool_;
@@ -53,6 +55,7 @@ class PosedScene {
   PosingStatistics posing_;
   std::shared_ptr<frame::TextureLibrary> textures_;
   frame::ClusteredMeshes meshes_;
+  std::vector<bool> may_move_;  // of nodes: set by callers, and followed by the frame since
   frame::Frame frame_;
   CasterStructures casters_;
   CasterChanges caster_changes_;

@@ -67,12 +67,22 @@ std::unique_ptr<shadow::ShadowTechnique> ShadowCasting::make_opaque(const light:
   }
 }
 
+namespace {
+
+// Whether where the camera stands decides on the light's maps: light::make_light_plan().
+bool follows_camera(const light::PlannedLight& planned) {
+  return planned.technique == ShadowTechnique::cascades || planned.settings.warp != ShadowWarp::none;
+}
+
+}  // namespace
+
 DepthMaps ShadowCasting::find_maps(const light::PlannedLight& planned, std::size_t index,
                                    bool keeps_triangles) {
   ProgressReport& progress = context_.progress;
   const DepthMapKey key = {planned.shadow_views, planned.settings.caster_faces, keeps_triangles};
+  const DepthMapOwner owner = {index, follows_camera(planned) ? context_.reflections : std::vector<int>()};
   const DepthMapCache::Found found = context_.maps.find(
-      index, key,
+      owner, key,
       {context_.frame, context_.pool, context_.bins, context_.instruction_set,
        context_.statistics.map_stages},
       !context_.settings.keep_shadow_maps, working_bytes_, [&progress] { return progress.asks_to_stop(); });

@@ -30,6 +30,7 @@ struct CastingContext {
   const RenderSettings& settings;
   RenderStatistics& statistics;
   ProgressReport& progress;
+  const std::vector<int>& reflections;  // on the way to the view: light::MirrorView
 };
 
 class ShadowCasting {

@@ -8,117 +8,15 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/gltf_animation_pointers.h"
 #include "scene/gltf_extension.h"
-#include "scene/lobe_factors.h"
+#include "scene/gltf_light_extensions.h"
 #include "scene/spelling.h"
 
 namespace laterna::gltf {
 namespace {
 
 using P = AnimatedProperty;
-
-enum class Kind : std::uint8_t { node, mesh, camera, light, material };
-
-struct NamedProperty {
-  std::string_view path;
-  P property;
-  int texture = 0;
-};
-
-constexpr NamedProperty kOfNode[] = {
-    {"translation", P::translation}, {"rotation", P::rotation}, {"scale", P::scale}, {"weights", P::weights}};
-constexpr NamedProperty kOfMesh[] = {{"weights", P::weights}};
-constexpr NamedProperty kOfCamera[] = {
-    {"perspective/yfov", P::yfov},      {"perspective/aspectRatio", P::aspect},
-    {"perspective/znear", P::near},     {"perspective/zfar", P::far},
-    {"orthographic/xmag", P::x_extent}, {"orthographic/ymag", P::y_extent},
-    {"orthographic/znear", P::near},    {"orthographic/zfar", P::far}};
-constexpr NamedProperty kOfLight[] = {{"color", P::light_color},
-                                      {"intensity", P::intensity},
-                                      {"range", P::range},
-                                      {"spot/innerConeAngle", P::inner_cone},
-                                      {"spot/outerConeAngle", P::outer_cone},
-                                      {"extensions/LATERNA_projector/yfov", P::yfov},
-                                      {"extensions/LATERNA_projector/aspectRatio", P::aspect},
-                                      {"extensions/LATERNA_projector/znear", P::near},
-                                      {"extensions/LATERNA_projector/zfar", P::far},
-                                      {"extensions/LATERNA_projector/luminousFlux", P::lumens}};
-constexpr NamedProperty kOfMaterial[] = {
-    {"pbrMetallicRoughness/baseColorFactor", P::base_color},
-    {"pbrMetallicRoughness/metallicFactor", P::metallic},
-    {"pbrMetallicRoughness/roughnessFactor", P::roughness},
-    {"emissiveFactor", P::emissive},
-    {"extensions/KHR_materials_emissive_strength/emissiveStrength", P::emissive_strength},
-    {"alphaCutoff", P::alpha_cutoff},
-    {"normalTexture/scale", P::normal_scale},
-    {"occlusionTexture/strength", P::occlusion_strength}};
-constexpr std::array<std::string_view, 5> kTextures = {
-    "pbrMetallicRoughness/baseColorTexture", "pbrMetallicRoughness/metallicRoughnessTexture", "normalTexture",
-    "occlusionTexture", "emissiveTexture"};
-constexpr NamedProperty kOfTexture[] = {{"/extensions/KHR_texture_transform/offset", P::texture_offset},
-                                        {"/extensions/KHR_texture_transform/rotation", P::texture_rotation},
-                                        {"/extensions/KHR_texture_transform/scale", P::texture_scale}};
-
-// "extensions/KHR_materials_ior/ior" and the like.
-std::string pointer_of(std::string_view extension, std::string_view member) {
-  return fmt::format("extensions/{}/{}", extension, member);
-}
-
-// Texture transforms of a material, and what its lobes have; `path` leads from the material.
-std::optional<NamedProperty> find_material_property(std::string_view path) {
-  for (const LobeFactor& factor : lobe_factors()) {
-    if (path == pointer_of(factor.extension, factor.member)) return NamedProperty{path, factor.property};
-  }
-  const auto is_below = [&](std::string_view texture) { return path.substr(0, texture.size()) == texture; };
-  const auto find_transform = [&](std::string_view texture,
-                                  std::size_t number) -> std::optional<NamedProperty> {
-    for (const NamedProperty& property : kOfTexture) {
-      if (property.path == path.substr(texture.size()))
-        return NamedProperty{property.path, property.property, static_cast<int>(number)};
-    }
-    return std::nullopt;
-  };
-  for (std::size_t i = 0; i < kTextures.size(); ++i) {
-    if (is_below(kTextures[i])) return find_transform(kTextures[i], i);
-  }
-  for (std::size_t i = 0; i < kLobeTextures; ++i) {
-    const std::string texture = pointer_of(lobe_textures()[i].extension, lobe_textures()[i].member);
-    if (is_below(texture + "/")) return find_transform(texture, kTextures.size() + i);
-  }
-  return std::nullopt;
-}
-
-// A material's texture by its number, as it is reached from the material.
-std::string texture_pointer(std::size_t number) {
-  if (number < kTextures.size()) return std::string(kTextures[number]);
-  const LobeTexture& texture = lobe_textures()[number - kTextures.size()];
-  return pointer_of(texture.extension, texture.member);
-}
-
-std::optional<NamedProperty> find_property(Kind kind, std::string_view path) {
-  std::span<const NamedProperty> known;
-  switch (kind) {
-    case Kind::node:
-      known = kOfNode;
-      break;
-    case Kind::mesh:
-      known = kOfMesh;
-      break;
-    case Kind::camera:
-      known = kOfCamera;
-      break;
-    case Kind::light:
-      known = kOfLight;
-      break;
-    case Kind::material:
-      known = kOfMaterial;
-      break;
-  }
-  for (const NamedProperty& property : known) {
-    if (property.path == path) return property;
-  }
-  return kind == Kind::material ? find_material_property(path) : std::nullopt;
-}
 
 // A value deep in the file: "pbrMetallicRoughness/baseColorTexture" of a material. Null where it is not there.
 const JsonValue* descend(const JsonValue* value, std::string_view path) {
@@ -140,7 +38,7 @@ std::size_t morph_target_count(const Scene& scene, int node) {
 }  // namespace
 
 struct Animations::Target {
-  Kind kind;
+  AnimatedKind kind;
   P property;
   int index;  // in the file's list
   int texture;
@@ -162,7 +60,7 @@ Animations::Animations(const JsonDocument& json, Accessors& accessors, FaultList
     for (const JsonValue& channel : channels->children) {
       const std::optional<Target> target = quiet.parse_target(channel);
       if (!target || target->property != P::weights) continue;
-      (target->kind == Kind::mesh ? meshes_with_weights_ : nodes_with_weights_).insert(target->index);
+      (target->kind == AnimatedKind::mesh ? meshes_with_weights_ : nodes_with_weights_).insert(target->index);
     }
   }
 }
@@ -194,8 +92,8 @@ std::optional<Animations::Target> Animations::parse_target(const JsonValue& chan
     const std::optional<std::string> pointer = place.string("pointer");
     return pointer ? parse_pointer(place, *pointer) : std::nullopt;
   }
-  const std::optional<NamedProperty> property = find_property(Kind::node, *path);
-  if (!property) {
+  const std::optional<NamedProperty> property = find_property(AnimatedKind::node, *path);
+  if (!property || property->property == P::look_at) {
     target.error("path", fmt::format("expected translation, rotation, scale, weights or pointer, got {}",
                                      in_quotes(*path)));
     return std::nullopt;
@@ -204,17 +102,18 @@ std::optional<Animations::Target> Animations::parse_target(const JsonValue& chan
   const JsonValue* nodes = JsonObject(json_, json_.root(), faults_).array("nodes");
   const int node = target.index("node", nodes == nullptr ? 0 : nodes->children.size(), "nodes");
   if (node < 0) return std::nullopt;
-  return Target{Kind::node, property->property, node, 0, &nodes->children[static_cast<std::size_t>(node)]};
+  return Target{AnimatedKind::node, property->property, node, 0,
+                &nodes->children[static_cast<std::size_t>(node)]};
 }
 
 // A JSON pointer (RFC 6901) into the file: "/cameras/0/perspective/yfov".
 std::optional<Animations::Target> Animations::parse_pointer(JsonObject& place, const std::string& pointer) {
-  static constexpr std::pair<std::string_view, Kind> kLists[] = {
-      {"/nodes/", Kind::node},
-      {"/meshes/", Kind::mesh},
-      {"/cameras/", Kind::camera},
-      {"/extensions/KHR_lights_punctual/lights/", Kind::light},
-      {"/materials/", Kind::material}};
+  static constexpr std::pair<std::string_view, AnimatedKind> kLists[] = {
+      {"/nodes/", AnimatedKind::node},
+      {"/meshes/", AnimatedKind::mesh},
+      {"/cameras/", AnimatedKind::camera},
+      {"/extensions/KHR_lights_punctual/lights/", AnimatedKind::light},
+      {"/materials/", AnimatedKind::material}};
   for (const auto& [list, kind] : kLists) {
     if (pointer.compare(0, list.size(), list) != 0) continue;
     std::size_t index = 0;
@@ -234,11 +133,11 @@ std::optional<Animations::Target> Animations::parse_pointer(JsonObject& place, c
     const JsonValue& value = values->children[index];
     // Lobes have defaults, but pictures that are not there have no place.
     if (property->property >= P::texture_offset &&
-        static_cast<std::size_t>(property->texture) >= kTextures.size() &&
+        static_cast<std::size_t>(property->texture) >= kPlainTextures &&
         descend(&value, texture_pointer(static_cast<std::size_t>(property->texture))) == nullptr)
       break;
     // A camera of the other kind has no such lens; other members have defaults.
-    if (kind == Kind::camera && descend(&value, path.substr(1, path.find('/', 1) - 1)) == nullptr) {
+    if (kind == AnimatedKind::camera && descend(&value, path.substr(1, path.find('/', 1) - 1)) == nullptr) {
       place.error("pointer",
                   fmt::format("{} leads nowhere: the camera is of the other kind", in_quotes(pointer)));
       return std::nullopt;
@@ -251,16 +150,20 @@ std::optional<Animations::Target> Animations::parse_pointer(JsonObject& place, c
 
 class Animations::ClipReader {
  public:
-  ClipReader(Animations& owner, const JsonValue& value, const SceneIndices& indices, const Scene& scene)
+  ClipReader(Animations& owner, const JsonValue& value, const SceneIndices& indices, const Scene& scene,
+             bool plays)
       : owner_(owner),
         json_(owner.json_),
         faults_(owner.faults_),
         indices_(indices),
         scene_(scene),
-        object_(json_, value, faults_) {}
+        object_(json_, value, faults_) {
+    clip_.plays = plays;
+  }
 
   Clip read() {
     clip_.name = object_.string("name").value_or("");
+    read_lighting();
     object_.require_all({"channels", "samplers"});
     const JsonValue* channels = object_.array("channels");
     samplers_ = object_.array("samplers");
@@ -274,6 +177,22 @@ class Animations::ClipReader {
   }
 
  private:
+  // How it plays, which glTF leaves to viewers.
+  void read_lighting() {
+    const JsonValue* extension = find_extension(object_.value(), kLightingExtension);
+    if (extension == nullptr) return;
+    JsonObject lighting(json_, *extension, faults_, kGltfNames);
+    for (const std::string_view allowed : {"extensions", "extras"}) lighting.any(allowed);
+    clip_.plays = lighting.boolean("plays").value_or(clip_.plays);
+    clip_.is_path = lighting.boolean("path").value_or(clip_.is_path);
+    clip_.at_end =
+        lighting
+            .choice<AtEnd>("at_end",
+                           {{"hold", AtEnd::hold}, {"loop", AtEnd::loop}, {"ping_pong", AtEnd::ping_pong}})
+            .value_or(clip_.at_end);
+    lighting.report_unknown_members("an animation");
+  }
+
   void read_channel(const JsonValue& value) {
     JsonObject channel(json_, value, faults_);
     channel.require("sampler");
@@ -287,7 +206,7 @@ class Animations::ClipReader {
       components = morph_target_count(scene_, shown.front());
       if (components == 0)
         return channel.error("target", "moves the weights of a mesh without morph targets");
-    } else if (target->kind == Kind::node && target->value->find("matrix") != nullptr) {
+    } else if (target->kind == AnimatedKind::node && target->value->find("matrix") != nullptr) {
       return channel.error(
           "target",
           fmt::format("nodes[{}] has a matrix: only translation, rotation and scale move", target->index));
@@ -301,13 +220,13 @@ class Animations::ClipReader {
     ClipChannel channel;
     channel.property = target.property;
     channel.target = index;
-    channel.of_light = target.kind == Kind::light;
+    channel.of_light = target.kind == AnimatedKind::light;
     channel.texture = target.texture;
     channel.keys = keys;
     if (channel.of_light && target.property <= P::far &&
         scene_.lights[static_cast<std::size_t>(index)].type != LightType::projector)
       return;
-    if (target.kind == Kind::material) materials_.emplace(index, target.value);
+    if (target.kind == AnimatedKind::material) materials_.emplace(index, target.value);
     clip_.channels.push_back(channel);
   }
 
@@ -315,15 +234,15 @@ class Animations::ClipReader {
     const auto index = static_cast<std::size_t>(target.index);
     const auto one = [](int i) { return i < 0 ? std::vector<int>{} : std::vector<int>{i}; };
     switch (target.kind) {
-      case Kind::node:
+      case AnimatedKind::node:
         return one(indices_.nodes[index]);
-      case Kind::camera:
+      case AnimatedKind::camera:
         return indices_.cameras[index];
-      case Kind::light:
+      case AnimatedKind::light:
         return indices_.lights[index];
-      case Kind::material:
+      case AnimatedKind::material:
         return one(indices_.materials[index]);
-      case Kind::mesh:
+      case AnimatedKind::mesh:
         break;
     }
     // Nodes that show it and have no weights of their own.
@@ -385,7 +304,8 @@ class Animations::ClipReader {
   void read_values(JsonObject& object, KeyFrames& keys, const Target& target, std::size_t components) {
     const int output = object.index("output", owner_.accessors_.size(), "accessors");
     if (output < 0 || keys.times.empty() || !has_room(object, output)) return;
-    const int stored = target.property == P::weights ? 1 : static_cast<int>(components);
+    const bool is_list = target.property == P::weights || target.property == P::look_at;
+    const int stored = is_list ? 1 : static_cast<int>(components);
     const auto values = owner_.accessors_.read_numbers(output, stored, json_.place(object.value(), "output"));
     if (!values) return;
     const bool has_slopes = keys.interpolation == KeyInterpolation::cubic_spline;
@@ -497,9 +417,8 @@ class Animations::ClipReader {
 std::vector<Clip> Animations::read(const SceneIndices& indices, const Scene& scene) {
   std::vector<Clip> clips;
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    Clip clip = ClipReader(*this, *values_[i], indices, scene).read();
+    Clip clip = ClipReader(*this, *values_[i], indices, scene, i == 0).read();
     if (clip.name.empty()) clip.name = fmt::format("clip {}", i + 1);
-    clip.plays = i == 0;
     clips.push_back(std::move(clip));
   }
   return clips;

@@ -9,8 +9,9 @@ namespace {
 constexpr int kFloat = 5126;
 
 // The order in which people look for things.
-constexpr std::array<std::string_view, 9> kLists = {
-    "nodes", "cameras", "meshes", "materials", "textures", "images", "samplers", "accessors", "bufferViews"};
+constexpr std::array<std::string_view, 11> kLists = {"nodes",      "cameras",   "meshes",     "skins",
+                                                     "materials",  "textures",  "images",     "samplers",
+                                                     "animations", "accessors", "bufferViews"};
 
 }  // namespace
 

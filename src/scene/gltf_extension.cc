@@ -13,7 +13,7 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 27> kRead = {
+constexpr std::array<std::string_view, 28> kRead = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
@@ -35,6 +35,7 @@ constexpr std::array<std::string_view, 27> kRead = {
     "KHR_texture_transform",
     "LATERNA_light_map",
     "LATERNA_lighting",
+    "LATERNA_mirror",
     "LATERNA_projector",
     "LATERNA_relief",
     // Safe to leave out: they hold alternatives or descriptions of what is read anyway.

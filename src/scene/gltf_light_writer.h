@@ -24,6 +24,9 @@ class LightWriter {
   /// Hangs the light on the node that shows it.
   Result<void> hang(int light, const std::string& node_name, Json& node);
 
+  /// Of each light, in the list of KHR_lights_punctual; −1: a measured lamp, which hangs on its node.
+  [[nodiscard]] const std::vector<int>& indices() const { return index_of_; }
+
  private:
   // What programs see that know nothing of our extensions.
   struct Plain {
@@ -44,7 +47,7 @@ class LightWriter {
   PictureWriter& pictures_;
   Surroundings& surroundings_;
   Document& document_;
-  std::vector<int> index_of_;  // in KHR_lights_punctual; −1: a lamp
+  std::vector<int> index_of_;
   // Measured lamps: where their bytes are, by lamp and by text; and EXT_lights_ies.lights by file and name.
   std::vector<Json> lamp_files_;
   std::map<const LightDistribution*, int> file_of_lamp_;

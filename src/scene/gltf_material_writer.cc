@@ -8,6 +8,7 @@
 
 #include "scene/gltf_light_map.h"
 #include "scene/gltf_lobes.h"
+#include "scene/gltf_mirror.h"
 #include "scene/gltf_relief.h"
 #include "scene/texture_transform.h"
 
@@ -54,6 +55,7 @@ class MaterialWriter {
       set_texture(object, name, texture);
     });
     set_relief(json, material);
+    if (material.mirror != nullptr) document_.extend(json, kMirrorExtension, mirror_json(*material.mirror));
     if (fault_) return tl::unexpected(std::move(*fault_));
     if (json.is_null()) json = Json::object();
     return json;

@@ -7,6 +7,7 @@
 #include "scene/gltf_extension.h"
 #include "scene/gltf_light_map.h"
 #include "scene/gltf_lobes.h"
+#include "scene/gltf_mirror.h"
 #include "scene/gltf_relief.h"
 
 namespace laterna::gltf {
@@ -118,6 +119,7 @@ Material read_material(const JsonDocument& json, const JsonValue& value, Texture
   material.unlit = find_extension(value, "KHR_materials_unlit") != nullptr;
   read_lobes(json, value, textures, faults, material);
   material.relief = read_relief(json, value, textures, material.name, faults);
+  material.mirror = read_mirror(json, value, material.alpha_mode, faults);
   return material;
 }
 

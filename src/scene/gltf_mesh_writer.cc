@@ -1,6 +1,7 @@
 #include "scene/gltf_mesh_writer.h"
 
 #include <glm/common.hpp>
+#include <string>
 
 namespace laterna::gltf {
 namespace {
@@ -38,6 +39,44 @@ int add_indices(Document& document, const Primitive& primitive) {
                                narrow.size());
 }
 
+// Sets of four: what pulls by nothing fills the last one up.
+void add_influences(Document& document, const Primitive& primitive, Json& attributes) {
+  const auto per_vertex = static_cast<std::size_t>(primitive.influences);
+  for (std::size_t set = 0; 4 * set < per_vertex; ++set) {
+    std::vector<std::uint16_t> joints;
+    std::vector<glm::vec4> weights;
+    for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+      weights.emplace_back(0.0F);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const bool is_there = 4 * set + k < per_vertex;
+        const std::size_t at = v * per_vertex + 4 * set + k;
+        joints.push_back(is_there ? primitive.joints[at] : std::uint16_t{0});
+        if (is_there) weights.back()[static_cast<int>(k)] = primitive.joint_weights[at];
+      }
+    }
+    attributes["JOINTS_" + std::to_string(set)] =
+        document.add_accessor(std::as_bytes(std::span(joints)), Document::Target::attributes, kU16, "VEC4",
+                              primitive.positions.size());
+    attributes["WEIGHTS_" + std::to_string(set)] = add_vectors(document, weights);
+  }
+}
+
+// What displaces nothing is written as displacements by nothing: a target is never empty.
+Json targets_json(Document& document, const Primitive& primitive) {
+  Json targets = Json::array();
+  for (const MorphTarget& target : primitive.targets) {
+    Json json = Json::object();
+    const std::vector<glm::vec3> nothing(primitive.positions.size(), glm::vec3(0));
+    json["POSITION"] = add_positions(document, target.positions.empty() ? nothing : target.positions);
+    if (!target.normals.empty() && !primitive.normals.empty())
+      json["NORMAL"] = add_vectors(document, target.normals);
+    if (!target.tangents.empty() && !primitive.tangents.empty() && !primitive.normals.empty())
+      json["TANGENT"] = add_vectors(document, target.tangents);
+    targets.push_back(std::move(json));
+  }
+  return targets;
+}
+
 Json primitive_json(Document& document, const Primitive& primitive) {
   Json attributes;
   attributes["POSITION"] = add_positions(document, primitive.positions);
@@ -52,7 +91,9 @@ Json primitive_json(Document& document, const Primitive& primitive) {
     if (first.empty()) attributes["TEXCOORD_0"] = attributes["TEXCOORD_1"];
   }
   if (!primitive.colors.empty()) attributes["COLOR_0"] = add_vectors(document, primitive.colors);
+  add_influences(document, primitive, attributes);
   Json json = {{"attributes", std::move(attributes)}};
+  if (!primitive.targets.empty()) json["targets"] = targets_json(document, primitive);
   if (!primitive.indices.empty()) json["indices"] = add_indices(document, primitive);
   if (primitive.material >= 0) json["material"] = primitive.material;
   return json;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "scene/gltf_animation_writer.h"
 #include "scene/gltf_light_extensions.h"
 #include "scene/gltf_setting_writer.h"
 #include "scene/instance_transforms.h"
@@ -28,6 +29,13 @@ void set_matrix(Json& node, const glm::dmat4& matrix) {
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) numbers.push_back(matrix[column][row]);
   }
+}
+
+void set_parts(Json& node, const Transform& parts) {
+  const Transform usual;
+  if (parts.translation != usual.translation) node["translation"] = components(parts.translation);
+  if (parts.rotation != usual.rotation) node["rotation"] = components(parts.rotation);
+  if (parts.scale != usual.scale) node["scale"] = components(parts.scale);
 }
 
 void set_flags(Json& json, const Node& node, Document& document) {
@@ -53,7 +61,11 @@ Json instancing_json(const InstanceTransforms& t, Document& document) {
 class NodeWriter {
  public:
   NodeWriter(const Scene& scene, const std::vector<int>& meshes, LightWriter& lights, Document& document)
-      : scene_(scene), meshes_(meshes), lights_(lights), document_(document) {}
+      : scene_(scene),
+        meshes_(meshes),
+        lights_(lights),
+        document_(document),
+        moved_by_parts_(nodes_moved_by_parts(scene)) {}
 
   Result<void> write() {
     std::vector<Json> children(scene_.nodes.size(), Json::array());
@@ -88,8 +100,16 @@ class NodeWriter {
   Result<Json> node_json(const Node& node) {
     Json json = Json::object();
     if (!node.name.empty()) json["name"] = node.name;
-    set_matrix(json, node.parent_from_node);
-    if (mesh_of(node) >= 0 && node.node_from_instance.empty()) json["mesh"] = mesh_of(node);
+    if (moved_by_parts_[static_cast<std::size_t>(&node - scene_.nodes.data())]) {
+      set_parts(json, parts_of(node));
+    } else {
+      set_matrix(json, node.parent_from_node);
+    }
+    if (mesh_of(node) >= 0 && node.node_from_instance.empty()) {
+      json["mesh"] = mesh_of(node);
+      if (node.skin >= 0) json["skin"] = node.skin;
+      for (const float weight : node.weights) json["weights"].push_back(shortest(weight));
+    }
     if (node.camera >= 0) json["camera"] = node.camera;
     set_flags(json, node, document_);
     if (node.light >= 0) {
@@ -135,6 +155,7 @@ class NodeWriter {
   const std::vector<int>& meshes_;
   LightWriter& lights_;
   Document& document_;
+  std::vector<bool> moved_by_parts_;
 };
 
 }  // namespace

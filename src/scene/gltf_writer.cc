@@ -8,6 +8,7 @@
 #include "base/output_file.h"
 #include "base/without_exceptions.h"
 #include "image/file_ending.h"
+#include "scene/gltf_animation_writer.h"
 #include "scene/gltf_camera_writer.h"
 #include "scene/gltf_environment_writer.h"
 #include "scene/gltf_light_writer.h"
@@ -72,18 +73,6 @@ void warn_of_rest(const Scene& scene, Document& document) {
     document.warn("photographs", "glTF has no photographs: add them again with `laterna photo`");
   if (std::ranges::any_of(scene.materials, [](const Material& m) { return !m.layers.empty(); }))
     document.warn("surfaces", "layers on surfaces are not carried: keep the rig that has them");
-  if (std::ranges::any_of(scene.materials, [](const Material& m) { return m.mirror != nullptr; }))
-    document.warn("surfaces", "mirrors are not carried: keep the rig that has them");
-  if (!scene.clips.empty())
-    document.warn("clips", "animation is not carried: the file shows one instant of it");
-  if (!scene.skins.empty())
-    document.warn("skins", "are not carried: meshes that wear them are written as they were modelled");
-  const auto has_targets = [](const Mesh& mesh) {
-    return std::ranges::any_of(mesh.primitives, [](const Primitive& p) { return !p.targets.empty(); });
-  };
-  if (std::ranges::any_of(scene.meshes, has_targets))
-    document.warn("meshes",
-                  "morph targets that move are not carried: such meshes are written as they were modelled");
 }
 
 Result<GltfFiles> make(const Scene& scene, const std::filesystem::path& file,
@@ -103,6 +92,8 @@ Result<GltfFiles> make(const Scene& scene, const std::filesystem::path& file,
   if (const auto written = lights.write(); !written) return tl::unexpected(written.error());
   if (const auto written = gltf::write_nodes(scene, meshes, lights, document); !written)
     return tl::unexpected(written.error());
+  gltf::write_skins(scene, document);
+  gltf::write_animations(scene, lights.indices(), document);
   if (const auto written = gltf::write_environment(scene, pictures, document); !written)
     return tl::unexpected(written.error());
   warn_of_rest(scene, document);

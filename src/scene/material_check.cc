@@ -7,6 +7,7 @@
 #include "laterna/mirrors.h"
 #include "laterna/relief.h"
 #include "scene/lobe_factors.h"
+#include "scene/mirror_settings.h"
 #include "scene/scene_check.h"
 #include "scene/spelling.h"
 
@@ -29,9 +30,10 @@ class MaterialCheck : SceneCheck {
   void check_texture(const Texture& texture, const std::string& place);
   void check_material(const Material& material, const std::string& place);
   void check_layers(const Material& material, const std::string& place);
+  void check_light_map(const LightMap& light_map, const std::string& place);
   void check_lobes(const MaterialLobes& lobes, const std::string& place);
   void check_relief(const Material& material, const std::string& place);
-  void check_mirror(const Mirror& mirror, const std::string& place);
+  void check_mirror(const Mirror& mirror, AlphaMode alpha_mode, const std::string& place);
   void check_layer_projector(const SurfaceLayer& layer, const std::string& place);
 };
 
@@ -100,13 +102,25 @@ void MaterialCheck::check_material(const Material& material, const std::string& 
   check_texture(material.normal_texture, place + ".normal_texture");
   check_texture(material.occlusion_texture, place + ".occlusion_texture");
   check_texture(material.emissive_texture, place + ".emissive_texture");
-  check_texture(material.light_map.front, place + ".light_map.front");
-  check_texture(material.light_map.back, place + ".light_map.back");
-  check_number(place + ".light_map.intensity", material.light_map.intensity, 0, kMaxRadiance);
+  check_light_map(material.light_map, place + ".light_map");
   check_layers(material, place + ".layers");
   if (material.lobes != nullptr) check_lobes(*material.lobes, place + ".lobes.");
   check_relief(material, place + ".relief");
-  if (material.mirror != nullptr) check_mirror(*material.mirror, place + ".mirror");
+  if (material.mirror != nullptr) check_mirror(*material.mirror, material.alpha_mode, place + ".mirror");
+}
+
+// Luxels of both sides lie in the same places.
+void MaterialCheck::check_light_map(const LightMap& light_map, const std::string& place) {
+  check_texture(light_map.front, place + ".front");
+  check_texture(light_map.back, place + ".back");
+  check_number(place + ".intensity", light_map.intensity, 0, kMaxRadiance);
+  if (!light_map.back.is_set()) return;
+  if (!light_map.front.is_set()) {
+    fault(place + ".front", "is not set, but the back is");
+  } else if (light_map.back.uv_set != light_map.front.uv_set) {
+    fault(place + ".back.uv_set",
+          fmt::format("expected the front's, {}, got {}", light_map.front.uv_set, light_map.back.uv_set));
+  }
 }
 
 void MaterialCheck::check_lobes(const MaterialLobes& lobes, const std::string& place) {
@@ -123,7 +137,7 @@ void MaterialCheck::check_lobes(const MaterialLobes& lobes, const std::string& p
     check_texture(*textures[i], place + std::string(lobe_textures()[i].field));
 }
 
-void MaterialCheck::check_mirror(const Mirror& mirror, const std::string& place) {
+void MaterialCheck::check_mirror(const Mirror& mirror, AlphaMode alpha_mode, const std::string& place) {
   check_color(place + ".reflectance", mirror.reflectance, 1);
   if (mirror.ior) check_number(place + ".ior", *mirror.ior, 1, kMaxMirrorIor);
   check_number(place + ".roughness", mirror.roughness, 0, 1);
@@ -138,8 +152,16 @@ void MaterialCheck::check_mirror(const Mirror& mirror, const std::string& place)
     check_number(at + ".length", wave.length, kShortestWave, kMaxCoordinate);
     check_number(at + ".amplitude", wave.amplitude, 0, kMaxCoordinate);
     if (wave.speed) check_number(at + ".speed", *wave.speed, -1e6, 1e6);
-    check_number(at + ".phase", wave.phase, -1000, 1000);
+    check_number(at + ".phase", wave.phase, -kMaxWavePhase, kMaxWavePhase);
   }
+  if (!mirror.volume) return;
+  check_color(place + ".volume.attenuation_color", mirror.volume->attenuation_color, 1);
+  if (const double distance = mirror.volume->attenuation_distance; !std::isinf(distance) || distance < 0)
+    check_number(place + ".volume.attenuation_distance", distance,
+                 static_cast<float>(kLeastAttenuationDistance), std::numeric_limits<float>::max());
+  if (!mirror.ior) fault(place + ".volume", "bends light by `ior`, which is not set");
+  if (const std::string reason = find_volume_fault(mirror, alpha_mode); !reason.empty())
+    fault(place + ".volume", reason);
 }
 
 void MaterialCheck::check_layers(const Material& material, const std::string& place) {

@@ -2,8 +2,8 @@
 
 #include "base/elementary.h"
 #include "laterna/blend.h"
+#include "scene/mirror_settings.h"
 #include "scene/relief_settings.h"
-#include "scene/rig_mirror.h"
 #include "scene/rig_ranges.h"
 #include "scene/uri.h"
 
@@ -139,7 +139,7 @@ std::optional<SurfaceOverride> read_rig_surface(const JsonDocument& json, const 
   if (object.has("material") && object.has("node"))
     object.error("node", "give either material or node, not both");
   if (const JsonValue* mirror = object.object("mirror"))
-    surface.mirror = read_rig_mirror(json, *mirror, faults);
+    surface.mirror = read_mirror_settings(json, *mirror, faults, kRigNames);
   if (!object.has("relief") && !object.has("mirror")) object.require("layers");
   if (const JsonValue* layers = object.array("layers")) {
     for (const JsonValue& layer : layers->children)

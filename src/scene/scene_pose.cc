@@ -151,13 +151,6 @@ void set_material_value(Material& material, const ClipChannel& channel, std::spa
   }
 }
 
-// A gaze that a path leads through itself keeps to −Z.
-glm::dmat4 looking(std::span<const double> v) {
-  const glm::dvec3 position = vector_of(v);
-  const Result<Pose> pose = Pose::look_at(position, vector_of(v.subspan(3)), vector_of(v.subspan(6)));
-  return pose ? pose->world_from_view() : Pose{position, glm::dmat3(1.0)}.world_from_view();
-}
-
 // Gathers what channels say of one scene, then puts it there.
 class Posing {
  public:
@@ -213,7 +206,7 @@ class Posing {
     }
     if (channel.property == AnimatedProperty::look_at) {
       transforms_.erase(channel.target);
-      node.parent_from_node = looking(values_);
+      node.parent_from_node = gaze_matrix(values_);
       return;
     }
     Transform& transform = transforms_.try_emplace(channel.target, *rest_.at(channel.target)).first->second;
@@ -239,7 +232,25 @@ bool hangs_on_moving(const Scene& scene, const Node& node, const std::vector<boo
                      [&](int joint) { return moves[static_cast<std::size_t>(joint)]; });
 }
 
+// All that hang on nodes which move.
+void take_along(const Scene& scene, std::vector<bool>& moves) {
+  // Parents mostly come first: one pass finds nearly all, and a last one nothing.
+  for (bool found = true; found;) {
+    found = false;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      if (moves[i] || !hangs_on_moving(scene, scene.nodes[i], moves)) continue;
+      moves[i] = found = true;
+    }
+  }
+}
+
 }  // namespace
+
+glm::dmat4 gaze_matrix(std::span<const double> v) {
+  const glm::dvec3 position = vector_of(v);
+  const Result<Pose> pose = Pose::look_at(position, vector_of(v.subspan(3)), vector_of(v.subspan(6)));
+  return pose ? pose->world_from_view() : Pose{position, glm::dmat3(1.0)}.world_from_view();
+}
 
 std::vector<bool> moving_nodes(const Scene& scene) {
   std::vector<bool> moves(scene.nodes.size(), false);
@@ -253,14 +264,14 @@ std::vector<bool> moving_nodes(const Scene& scene) {
     }
   }
   if (!any) return {};
-  // Parents mostly come first: one pass finds nearly all, and a last one nothing.
-  for (bool found = true; found;) {
-    found = false;
-    for (std::size_t i = 0; i < moves.size(); ++i) {
-      if (moves[i] || !hangs_on_moving(scene, scene.nodes[i], moves)) continue;
-      moves[i] = found = true;
-    }
-  }
+  take_along(scene, moves);
+  return moves;
+}
+
+std::vector<bool> nodes_moved_by(const Scene& scene, int node) {
+  std::vector<bool> moves(scene.nodes.size(), false);
+  moves[static_cast<std::size_t>(node)] = true;
+  take_along(scene, moves);
   return moves;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <vector>
 
 #include "laterna/scene.h"
@@ -11,6 +12,12 @@ namespace laterna {
 /// Which nodes stand elsewhere at another time, or change their shape: those that clips which play move, all below them, and
 /// those whose skins hang on such nodes. Empty where nothing moves.
 std::vector<bool> moving_nodes(const Scene& scene);
+
+/// The same where one node moves.
+std::vector<bool> nodes_moved_by(const Scene& scene, int node);
+
+/// Where AnimatedProperty::look_at puts a node: position, target, up. A gaze that a path leads through itself keeps to −Z.
+glm::dmat4 gaze_matrix(std::span<const double> position_target_up);
 
 /// Whose inputs a change of time has changed.
 struct PoseChanges {

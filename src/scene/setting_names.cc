@@ -63,6 +63,10 @@ constexpr std::array kPairs = std::to_array<SettingNames::Pair>({
     // Reliefs.
     {"self_shadow", "selfShadow"},
     {"cut_edges", "cutEdges"},
+    // Mirrors.
+    {"phase_deg", "phase"},
+    {"attenuation_color", "attenuationColor"},
+    {"attenuation_distance", "attenuationDistance"},
     // Nodes.
     {"casts_shadow", "castsShadow"},
     {"receives_shadow", "receivesShadow"},

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "scene/mirror_settings.h"
 #include "scene/node_selection.h"
 #include "scene/spelling.h"
 
@@ -172,13 +173,19 @@ class SurfaceLayering {
       fault(change_.place, fmt::format("material {} comes to {} layers, more than {}",
                                        in_quotes(material_at(index).name), all.size(), kMaxSurfaceLayers));
     }
-    if (change_.mirror != nullptr) material_at(index).mirror = change_.mirror;
+    if (change_.mirror != nullptr) set_mirror(*change_.mirror, index);
     for (const SurfaceOverride::Layer& read : change_.layers) {
       if (read.layer.texture.is_set())
         check_coordinates(read.layer.texture, read.texture_place, ": a projector's \"slide\" needs none",
                           index);
     }
     if (change_.relief) set_relief(*change_.relief, index);
+  }
+
+  void set_mirror(const Mirror& mirror, int index) {
+    material_at(index).mirror = change_.mirror;
+    if (const std::string fault = find_volume_fault(mirror, material_at(index).alpha_mode); !fault.empty())
+      this->fault(mirror.place + ".volume", fmt::format("{}: {}", fault, in_quotes(material_at(index).name)));
   }
 
   void set_relief(const Relief& relief, int index) {

@@ -12,6 +12,7 @@ using shadow::SurfaceSamples;
 namespace {
 
 bool does_not_add(const ShaderLight& light) { return light.open.has_value(); }
+bool has_light_map(const frame::Surface& surface) { return surface.light_map.front.chain != nullptr; }
 
 }  // namespace
 
@@ -23,7 +24,6 @@ BatchShader::BatchShader(const ShaderJob& job, TileLayers& layers, TileResult& r
       find_surface_points_(find_surface_points_for(job.instruction_set)),
       find_irradiance_(find_irradiance_for(job.instruction_set)),
       find_ambient_(find_ambient_for(job.instruction_set)),
-      add_light_map_(add_light_map_for(job.instruction_set)),
       reflect_(reflect_for(job.instruction_set)),
       reflect_environment_(reflect_environment_for(job.instruction_set)),
       find_bounds_(find_bounds_for(job.instruction_set)),
@@ -48,6 +48,8 @@ BatchShader::BatchShader(const ShaderJob& job, TileLayers& layers, TileResult& r
       std::any_of(job.frame->surfaces.begin(), job.frame->surfaces.end(),
                   [](const frame::Surface& surface) { return surface.lobes != nullptr; }))
     lobe_shader_ = std::make_unique<LobeShader>(source_, job.lobes, job.instruction_set);
+  if (std::any_of(job.frame->surfaces.begin(), job.frame->surfaces.end(), has_light_map))
+    light_map_shader_ = std::make_unique<LightMapShader>(source_, job.reflection, job.instruction_set);
   if (std::any_of(job.lights.begin(), job.lights.end(), does_not_add))
     light_blender_ = std::make_unique<LightBlender>(job.instruction_set);
   has_lights_to_leave_out_ = std::any_of(job.lights.begin(), job.lights.end(), [](const ShaderLight& light) {
@@ -69,8 +71,8 @@ void BatchShader::shade(const frame::Surface& surface, std::span<const ColorTarg
     light_blender_->start(*samples_, targets.subspan(0, part.first_light == 0 ? 0 : part.first_light + 1));
   if (part.ambient) {
     find_ambient(surface);
-    if (surface.light_map.front.chain != nullptr && !surface.unlit)
-      add_light_map_(source_, job_.reflection, surface.light_map, *samples_, *points_, *radiance_);
+    if (has_light_map(surface) && !surface.unlit)
+      light_map_shader_->add(surface, *samples_, *points_, lobes_, *radiance_);
     if (is_opaque && sample_ == 0) layers_.store_geometry(*samples_, *points_);
     if (!sums) scatter_radiance_(*samples_, *radiance_, targets[0]);
   }
@@ -143,7 +145,7 @@ void BatchShader::lay_layers(const frame::Surface& surface, bool is_opaque) {
   if (job_.passes == Passes::multi && is_opaque) return load_base_colors();
   double drawing_ms = 0;
   for (const frame::LayerBinding& layer : surface.layers)
-    drawing_ms += layer_painter_->paint(layer, *samples_, *points_);
+    drawing_ms += layer_painter_->paint(surface, layer, *samples_, *points_);
   clock_.add_drawing(drawing_ms);
   clock_.end_stage(Stage::surface, drawing_ms);
 }
@@ -242,7 +244,7 @@ void BatchShader::lay_pass(const frame::Surface& surface, std::size_t pass) {
   } else if (photographs_ != nullptr) {
     paint_photographs(false);
   }
-  clock_.add_drawing(layer_painter_->paint(surface.layers[pass], *samples_, *points_));
+  clock_.add_drawing(layer_painter_->paint(surface, surface.layers[pass], *samples_, *points_));
   scatter(*samples_, points_->base_r.data(), base_colors_.r.data());
   scatter(*samples_, points_->base_g.data(), base_colors_.g.data());
   scatter(*samples_, points_->base_b.data(), base_colors_.b.data());

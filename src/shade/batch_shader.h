@@ -6,7 +6,7 @@
 #include <span>
 
 #include "shade/light_blender.h"
-#include "shade/light_map.h"
+#include "shade/light_map_shader.h"
 #include "shade/sample_batch.h"
 #include "shade/scatter.h"
 #include "shade/shader_job.h"
@@ -74,7 +74,6 @@ class BatchShader {
   FindSurfacePoints find_surface_points_;
   FindIrradiance find_irradiance_;
   FindAmbient find_ambient_;
-  AddLightMap add_light_map_;
   Reflect reflect_;
   ReflectEnvironment reflect_environment_;
   FindBounds find_bounds_;
@@ -95,6 +94,7 @@ class BatchShader {
   std::unique_ptr<LightBlender> light_blender_;  // null: all lights add
   std::unique_ptr<LobeShader> lobe_shader_;      // null: no surface shows lobes
   LobeShader* lobes_ = nullptr;                  // of the batch; null: its surface has none
+  std::unique_ptr<LightMapShader> light_map_shader_;  // null: no surface has a light map
   ShadingClock clock_;
 };
 

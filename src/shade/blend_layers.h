@@ -18,9 +18,10 @@ struct LayerColor {
   std::array<std::uint16_t, shadow::kMaxGroups> covered{};
 };
 
-/// A texture of the samples' surface.
-using FindTextureColor = void (*)(const PointSource& source, const frame::LayerBinding& layer,
-                                  const shadow::SurfaceSamples& samples, LayerColor& color);
+/// A texture on the samples' surface.
+using FindTextureColor = void (*)(const PointSource& source, const frame::Surface& surface,
+                                  const frame::LayerBinding& layer, const shadow::SurfaceSamples& samples,
+                                  LayerColor& color);
 FindTextureColor find_texture_color_for(InstructionSet set);
 
 /// A projector's slide, in focus, on what is in its frame and faces it. Whether anything stands between is not asked.

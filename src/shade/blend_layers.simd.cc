@@ -10,20 +10,18 @@
 
 #include "base/vectors-inl.h"
 #include "frame/texture_coordinates-inl.h"
-#include "frame/triangle_corners-inl.h"
 #include "image/texture_lookup-inl.h"
 #include "shade/blend_layers.h"
 #include "shade/blend_modes-inl.h"
 #include "shade/slide_lens-inl.h"
 #include "shade/slide_point-inl.h"
-#include "shade/surface_hit-inl.h"
+#include "shade/surface_hits-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace laterna::shade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 using frame::HWY_NAMESPACE::FindFootprint;
-using frame::HWY_NAMESPACE::TriangleCorners;
 using image::HWY_NAMESPACE::LookUp;
 using image::HWY_NAMESPACE::LookUpAlpha;
 using shadow::kGroupSize;
@@ -64,41 +62,17 @@ HWY_INLINE FloatMask IsInPicture(const Footprint& f) {
   return hn::And(hn::And(f.u >= zero, f.u <= one), hn::And(f.v >= zero, f.v <= one));
 }
 
-// Returns the samples that it is on, a bit each.
-template <bool kUniform>
-HWY_INLINE std::uint32_t FindTextureAt(const PointSource& source, const frame::LayerBinding& layer,
-                                       const PixelRays& rays, const TriangleCorners<kUniform>& corners,
-                                       const Facet& facet, const shadow::SurfaceSamples& s, LayerColor& color,
-                                       std::size_t i) {
-  const FloatTag d;
-  const Hit hit = FindHit(rays, facet, hn::Load(d, s.x.data() + i), hn::Load(d, s.y.data() + i),
-                          hn::Load(d, s.q.data() + i), source.interpolation);
-  const Footprint footprint = FindFootprint(*source.frame, layer.texture, corners, hit.weights);
-  StorePicture(layer.texture.chain, layer.texture.sampler, source.anisotropy, footprint, color, i);
-  return layer.once ? BitsOf(IsInPicture(footprint)) : 0xFFFFU;
-}
-
-void find_texture_color(const PointSource& source, const frame::LayerBinding& layer,
-                        const shadow::SurfaceSamples& samples, LayerColor& color) {
-  const PixelRays rays(*source.view);
-  const TriangleId* ids = samples.id.data();
-  for (std::size_t group = 0; group < samples.group_count; ++group) {
-    const std::size_t first = group * kGroupSize;
-    std::uint32_t covered = 0;
-    if (IsOneTriangle(ids + first)) {
-      const TriangleCorners<true> corners(*source.frame, ids + first);
-      const Facet facet = FindFacet<true>(rays, corners.Positions());
-      for (std::size_t k = 0; k < kGroupSize; k += kLanes)
-        covered |= FindTextureAt(source, layer, rays, corners, facet, samples, color, first + k) << k;
-    } else {
-      for (std::size_t k = 0; k < kGroupSize; k += kLanes) {
-        const TriangleCorners<false> corners(*source.frame, ids + first + k);
-        const Facet facet = FindFacet<false>(rays, corners.Positions());
-        covered |= FindTextureAt(source, layer, rays, corners, facet, samples, color, first + k) << k;
-      }
-    }
-    color.covered[group] = static_cast<std::uint16_t>(covered & samples.active[group]);
-  }
+void find_texture_color(const PointSource& source, const frame::Surface& surface,
+                        const frame::LayerBinding& layer, const shadow::SurfaceSamples& samples,
+                        LayerColor& color) {
+  color.covered.fill(0);
+  VisitSurfaceHits(source, surface, samples, [&](const auto& hits, std::size_t i) HWY_ATTR {
+    const Footprint footprint = FindFootprint(*source.frame, layer.texture, hits.corners, hits.hit.weights);
+    StorePicture(layer.texture.chain, layer.texture.sampler, source.anisotropy, footprint, color, i);
+    const std::uint32_t on = layer.once ? BitsOf(IsInPicture(footprint)) : 0xFFFFU;
+    color.covered[i / kGroupSize] |=
+        static_cast<std::uint16_t>((on << (i % kGroupSize)) & samples.active[i / kGroupSize]);
+  });
 }
 
 // Whether surfaces show the projector the side that is seen.

@@ -6,7 +6,9 @@ namespace laterna::shade {
 
 double fresnel_reflectance(double cosine, double ior) {
   // Snell: sin of the refracted ray is that of the arriving one, divided by the index.
-  const double refracted = std::sqrt(1 - (1 - cosine * cosine) / (ior * ior));
+  const double squared = 1 - (1 - cosine * cosine) / (ior * ior);
+  if (squared < 0) return 1;  // total reflection
+  const double refracted = std::sqrt(squared);
   if (cosine + refracted <= 0) return 0;  // grazing what is no boundary: ior 1
   const double s = (cosine - ior * refracted) / (cosine + ior * refracted);
   const double p = (refracted - ior * cosine) / (refracted + ior * cosine);

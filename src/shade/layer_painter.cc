@@ -15,11 +15,11 @@ LayerPainter::LayerPainter(const PointSource& source, const std::vector<ShaderDe
       color_(std::make_unique<LayerColor>()),
       arrival_(std::make_unique<shadow::Arrival>()) {}
 
-double LayerPainter::paint(const frame::LayerBinding& layer, const shadow::SurfaceSamples& samples,
-                           SurfacePoints& points) {
+double LayerPainter::paint(const frame::Surface& surface, const frame::LayerBinding& layer,
+                           const shadow::SurfaceSamples& samples, SurfacePoints& points) {
   double drawing_ms = 0;
   if (layer.decal < 0) {
-    find_texture_color_(source_, layer, samples, *color_);
+    find_texture_color_(source_, surface, layer, samples, *color_);
   } else {
     drawing_ms = find_decal(layer, samples);
   }

@@ -23,9 +23,9 @@ class LayerPainter {
   /// `decals`: in the frame's order.
   LayerPainter(const PointSource& source, const std::vector<ShaderDecal>& decals, InstructionSet set);
 
-  /// Lays one layer on the base colours of `points`. Returns what ShadowTechnique::find_arrival does.
-  double paint(const frame::LayerBinding& layer, const shadow::SurfaceSamples& samples,
-               SurfacePoints& points);
+  /// Lays one layer of the samples' surface on the base colours of `points`. Returns what ShadowTechnique::find_arrival does.
+  double paint(const frame::Surface& surface, const frame::LayerBinding& layer,
+               const shadow::SurfaceSamples& samples, SurfacePoints& points);
 
  private:
   double find_decal(const frame::LayerBinding& layer, const shadow::SurfaceSamples& samples);

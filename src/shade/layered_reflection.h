@@ -5,6 +5,7 @@
 #include "shade/earlier_view.h"
 #include "shade/environment_light.h"
 #include "shade/illumination.h"
+#include "shade/light_map.h"
 #include "shade/lobe_points.h"
 #include "shade/sheen_albedo.h"
 
@@ -27,6 +28,12 @@ using ReflectLayered = void (*)(const LayeredSurface& surface, std::size_t group
                                 const Irradiance& irradiance, const shadow::Arrival& arrival, float fill,
                                 bool add, Radiance& radiance);
 ReflectLayered reflect_layered_for(InstructionSet set);
+
+/// What of baked irradiance is scattered back: added to `radiance`. As reflect_baked() of a plain surface, so that what the
+/// facets mirror of light along the view is missing; sheen and coat take what they take at the angle of sight.
+using ReflectLayeredBaked = void (*)(const LayeredSurface& surface, std::size_t groups,
+                                     const BakedIrradiance& irradiance, Radiance& radiance);
+ReflectLayeredBaked reflect_layered_baked_for(InstructionSet set);
 
 /// In place of `radiance`: ambient light that is scattered back, and what the surface emits through its coat.
 using FindLayeredAmbient = void (*)(const ReflectionSettings& settings, const LayeredSurface& surface,

@@ -154,6 +154,20 @@ void find_layered_ambient(const ReflectionSettings& settings, const LayeredSurfa
   }
 }
 
+void reflect_layered_baked(const LayeredSurface& surface, std::size_t groups,
+                           const BakedIrradiance& irradiance, Radiance& radiance) {
+  const auto one = Splat(1.0F);
+  for (std::size_t i = 0; i < groups * kGroupSize; i += kLanes) {
+    const LayeredSample s = LoadSample(surface, i);
+    Vector3 share = DiffuseShare(s, FindFresnel(surface, s, one, i)) * Splat(kInversePi);
+    if (surface.lobes->has_sheen)
+      share = share * LoadSheen(surface, i).rest_at(Saturate(Dot(s.normal, s.to_eye)));
+    if (surface.lobes->has_clearcoat) share = share * (one - LoadCoatShare(surface, s, i));
+    const Vector3 reflected = Times(share, Load3(irradiance.r, irradiance.g, irradiance.b, i));
+    StoreRadiance(Load3(radiance.r, radiance.g, radiance.b, i) + reflected, radiance, i);
+  }
+}
+
 }  // namespace laterna::shade::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -162,5 +176,6 @@ namespace laterna::shade {
 LATERNA_KERNEL_TABLE(light_coat)
 LATERNA_KERNEL_TABLE(reflect_layered)
 LATERNA_KERNEL_TABLE(find_layered_ambient)
+LATERNA_KERNEL_TABLE(reflect_layered_baked)
 }  // namespace laterna::shade
 #endif

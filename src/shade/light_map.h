@@ -7,12 +7,21 @@
 
 namespace laterna::shade {
 
-/// What a surface reflects of the irradiance that its light map holds, as a matt surface does: added to `radiance`. In the
-/// model `pbr` what glTF's dielectric mirrors toward the light, f0, is missing, as it is where light comes along the view.
-/// The surface has a light map, and `points` are those of `samples`.
-using AddLightMap = void (*)(const PointSource& source, const ReflectionSettings& settings,
-                             const frame::LightMapBinding& light_map, const shadow::SurfaceSamples& samples,
-                             const SurfacePoints& points, Radiance& radiance);
-AddLightMap add_light_map_for(InstructionSet set);
+/// Irradiance that light maps hold, in lux, by channel.
+struct BakedIrradiance {
+  shadow::SampleArray<float> r, g, b;
+};
+
+/// At the points of a surface that has a light map.
+using FindBakedIrradiance = void (*)(const PointSource& source, const frame::Surface& surface,
+                                     const shadow::SurfaceSamples& samples, BakedIrradiance& irradiance);
+FindBakedIrradiance find_baked_irradiance_for(InstructionSet set);
+
+/// What a matt surface reflects of irradiance from all around: added to `radiance`. In the model `pbr` what glTF's
+/// dielectric mirrors toward the light, f0, is missing, as it is where light comes along the view.
+using ReflectBaked = void (*)(const ReflectionSettings& settings, std::size_t groups,
+                              const SurfacePoints& points, const BakedIrradiance& irradiance,
+                              Radiance& radiance);
+ReflectBaked reflect_baked_for(InstructionSet set);
 
 }  // namespace laterna::shade

@@ -14,7 +14,7 @@
 #include "frame/triangle_corners-inl.h"
 #include "image/texture_lookup-inl.h"
 #include "shade/lobe_points.h"
-#include "shade/surface_hit-inl.h"
+#include "shade/surface_hits-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace laterna::shade::HWY_NAMESPACE {
@@ -25,7 +25,6 @@ using frame::HWY_NAMESPACE::Interpolate;
 using frame::HWY_NAMESPACE::kNormalField;
 using frame::HWY_NAMESPACE::kTangentField;
 using frame::HWY_NAMESPACE::TriangleCorners;
-using shadow::kGroupSize;
 
 template <class Samples>
 HWY_INLINE Vector3 Load3(const Samples& x, const Samples& y, const Samples& z, std::size_t i) {
@@ -66,12 +65,11 @@ HWY_INLINE Vector3 AnyPerpendicular(const Vector3& n) {
   return {one + sign * (n.x * n.x) * a, sign * (n.x * n.y * a), hn::Neg(sign * n.x)};
 }
 
-template <bool kUniform>
+template <bool kUniform, bool kOnRelief>
 class LobeReader {
  public:
-  HWY_INLINE LobeReader(const PointSource& source, const TriangleCorners<kUniform>& corners,
-                        const Facet& facet, const Hit& hit)
-      : source_(source), frame_(*source.frame), corners_(corners), facet_(facet), hit_(hit) {}
+  HWY_INLINE LobeReader(const PointSource& source, const SurfaceHits<kUniform, kOnRelief>& hits)
+      : source_(source), frame_(*source.frame), corners_(hits.corners), facet_(hits.facet), hit_(hits.hit) {}
 
   HWY_INLINE Vector3 Color(const frame::TextureBinding& binding) const {
     return image::HWY_NAMESPACE::LookUp(*binding.chain, binding.sampler, source_.anisotropy,
@@ -113,9 +111,15 @@ class LobeReader {
     return {tangent, Cross(normal, tangent) * sign};
   }
 
-  // The coat's normal, on the side that is seen (KHR_materials_clearcoat).
-  HWY_INLINE Vector3 CoatNormal(const frame::SurfaceLobes& lobes, bool double_sided) const {
+  // The coat's normal, on the side that is seen (KHR_materials_clearcoat): the geometry's, whatever normal map the layers
+  // beneath have. A relief is geometry, unless the coat has a normal map of its own, which says it all.
+  HWY_INLINE Vector3 CoatNormal(const frame::Surface& surface) const {
+    const frame::SurfaceLobes& lobes = *surface.lobes;
     Vector3 normal = GeometricNormal();
+    if constexpr (kOnRelief) {
+      if (lobes.clearcoat_normal.chain == nullptr)
+        normal = ReliefNormal(frame_, surface.relief, corners_, facet_, hit_, normal);
+    }
     if (lobes.clearcoat_normal.chain != nullptr && !corners_.StreamAt(kTangentField).IsMissing()) {
       const Vector3 t = Color(lobes.clearcoat_normal);
       const auto two = Splat(2.0F), one = Splat(1.0F), scale = Splat(lobes.values.clearcoat.normal_scale);
@@ -125,7 +129,7 @@ class LobeReader {
           normal * (t.z * two - one));
       normal = IfThenElse3(Dot(mapped, mapped) <= Splat(0.0F), normal, mapped);
     }
-    return double_sided ? IfThenElse3(hit_.shows_back, normal * Splat(-1.0F), normal) : normal;
+    return surface.double_sided ? IfThenElse3(hit_.shows_back, normal * Splat(-1.0F), normal) : normal;
   }
 
  private:
@@ -136,9 +140,9 @@ class LobeReader {
   const Hit& hit_;
 };
 
-template <bool kUniform>
+template <class Reader>
 HWY_INLINE void FindSpecular(const frame::SurfaceLobes& lobes, const LobeFactors& factors,
-                             const LobeReader<kUniform>& reader, LobePoints& p, std::size_t i) {
+                             const Reader& reader, LobePoints& p, std::size_t i) {
   const auto one = Splat(1.0F), f0 = Splat(factors.f0);
   const SpecularLobe& values = lobes.values.specular;
   Vector3 color = {Splat(values.color.x), Splat(values.color.y), Splat(values.color.z)};
@@ -153,9 +157,9 @@ HWY_INLINE void FindSpecular(const frame::SurfaceLobes& lobes, const LobeFactors
   hn::Store(weight, FloatTag(), p.specular.data() + i);
 }
 
-template <bool kUniform>
-HWY_INLINE void FindClearcoat(const frame::Surface& surface, const LobeReader<kUniform>& reader,
-                              LobePoints& p, std::size_t i) {
+template <class Reader>
+HWY_INLINE void FindClearcoat(const frame::Surface& surface, const Reader& reader, LobePoints& p,
+                              std::size_t i) {
   const FloatTag d;
   const frame::SurfaceLobes& lobes = *surface.lobes;
   auto factor = Splat(lobes.values.clearcoat.factor), roughness = Splat(lobes.values.clearcoat.roughness);
@@ -164,12 +168,11 @@ HWY_INLINE void FindClearcoat(const frame::Surface& surface, const LobeReader<kU
     roughness = roughness * reader.Color(lobes.clearcoat_roughness).y;
   hn::Store(factor, d, p.clearcoat.data() + i);
   hn::Store(roughness, d, p.clearcoat_roughness.data() + i);
-  Store3(reader.CoatNormal(lobes, surface.double_sided), p.coat_normal_x_ws, p.coat_normal_y_ws,
-         p.coat_normal_z_ws, i);
+  Store3(reader.CoatNormal(surface), p.coat_normal_x_ws, p.coat_normal_y_ws, p.coat_normal_z_ws, i);
 }
 
-template <bool kUniform>
-HWY_INLINE void FindSheen(const frame::SurfaceLobes& lobes, const LobeReader<kUniform>& reader, LobePoints& p,
+template <class Reader>
+HWY_INLINE void FindSheen(const frame::SurfaceLobes& lobes, const Reader& reader, LobePoints& p,
                           std::size_t i) {
   const SheenLobe& values = lobes.values.sheen;
   Vector3 color = {Splat(values.color.x), Splat(values.color.y), Splat(values.color.z)};
@@ -184,10 +187,9 @@ HWY_INLINE void FindSheen(const frame::SurfaceLobes& lobes, const LobeReader<kUn
 }
 
 // KHR_materials_anisotropy: the texture's direction, turned by the rotation.
-template <bool kUniform>
+template <class Reader>
 HWY_INLINE void FindAnisotropy(const frame::SurfaceLobes& lobes, const LobeFactors& factors,
-                               const LobeReader<kUniform>& reader, const Vector3& normal, LobePoints& p,
-                               std::size_t i) {
+                               const Reader& reader, const Vector3& normal, LobePoints& p, std::size_t i) {
   const auto one = Splat(1.0F), two = Splat(2.0F);
   auto x = one, y = Splat(0.0F), strength = Splat(lobes.values.anisotropy.strength);
   if (lobes.anisotropy.chain != nullptr) {
@@ -204,8 +206,8 @@ HWY_INLINE void FindAnisotropy(const frame::SurfaceLobes& lobes, const LobeFacto
   hn::Store(strength, FloatTag(), p.anisotropy.data() + i);
 }
 
-template <bool kUniform>
-HWY_INLINE void FindFilm(const frame::SurfaceLobes& lobes, const LobeReader<kUniform>& reader, LobePoints& p,
+template <class Reader>
+HWY_INLINE void FindFilm(const frame::SurfaceLobes& lobes, const Reader& reader, LobePoints& p,
                          std::size_t i) {
   const FloatTag d;
   const IridescenceLobe& values = lobes.values.iridescence;
@@ -219,10 +221,9 @@ HWY_INLINE void FindFilm(const frame::SurfaceLobes& lobes, const LobeReader<kUni
   hn::Store(thickness, d, p.film_thickness.data() + i);
 }
 
-template <bool kUniform>
+template <class Reader>
 HWY_INLINE void FindTransmission(const PointSource& source, const frame::SurfaceLobes& lobes,
-                                 const LobeReader<kUniform>& reader, const TriangleId* ids, LobePoints& p,
-                                 std::size_t i) {
+                                 const Reader& reader, const TriangleId* ids, LobePoints& p, std::size_t i) {
   const FloatTag d;
   auto factor = Splat(lobes.values.transmission.factor), thickness = Splat(lobes.values.volume.thickness);
   if (lobes.transmission.chain != nullptr) factor = factor * reader.Color(lobes.transmission).x;
@@ -234,17 +235,12 @@ HWY_INLINE void FindTransmission(const PointSource& source, const frame::Surface
   hn::Store(thickness * hn::Load(d, scales), d, p.thickness.data() + i);
 }
 
-template <bool kUniform>
+template <bool kUniform, bool kOnRelief>
 HWY_INLINE void FindLobes(const PointSource& source, const frame::Surface& surface,
-                          const LobeFactors& factors, const PixelRays& rays,
-                          const TriangleCorners<kUniform>& corners, const Facet& facet,
-                          const shadow::SurfaceSamples& s, const SurfacePoints& points, LobePoints& p,
-                          std::size_t i) {
-  const FloatTag d;
+                          const LobeFactors& factors, const SurfaceHits<kUniform, kOnRelief>& hits,
+                          const TriangleId* ids, const SurfacePoints& points, LobePoints& p, std::size_t i) {
   const frame::SurfaceLobes& lobes = *surface.lobes;
-  const Hit hit = FindHit(rays, facet, hn::Load(d, s.x.data() + i), hn::Load(d, s.y.data() + i),
-                          hn::Load(d, s.q.data() + i), source.interpolation);
-  const LobeReader<kUniform> reader(source, corners, facet, hit);
+  const LobeReader reader(source, hits);
   FindSpecular(lobes, factors, reader, p, i);
   if (lobes.has_clearcoat) FindClearcoat(surface, reader, p, i);
   if (lobes.has_sheen) FindSheen(lobes, reader, p, i);
@@ -253,28 +249,15 @@ HWY_INLINE void FindLobes(const PointSource& source, const frame::Surface& surfa
     FindAnisotropy(lobes, factors, reader, normal, p, i);
   }
   if (lobes.has_iridescence) FindFilm(lobes, reader, p, i);
-  if (lobes.has_transmission) FindTransmission(source, lobes, reader, s.id.data() + i, p, i);
+  if (lobes.has_transmission) FindTransmission(source, lobes, reader, ids, p, i);
 }
 
 void find_lobe_points(const PointSource& source, const frame::Surface& surface,
                       const shadow::SurfaceSamples& samples, const SurfacePoints& points, LobePoints& lobes) {
-  const PixelRays rays(*source.view);
   const LobeFactors factors(*surface.lobes);
-  const TriangleId* ids = samples.id.data();
-  for (std::size_t first = 0; first < samples.group_count * kGroupSize; first += kGroupSize) {
-    if (IsOneTriangle(ids + first)) {
-      const TriangleCorners<true> corners(*source.frame, ids + first);
-      const Facet facet = FindFacet<true>(rays, corners.Positions());
-      for (std::size_t i = first; i < first + kGroupSize; i += kLanes)
-        FindLobes(source, surface, factors, rays, corners, facet, samples, points, lobes, i);
-    } else {
-      for (std::size_t i = first; i < first + kGroupSize; i += kLanes) {
-        const TriangleCorners<false> corners(*source.frame, ids + i);
-        FindLobes(source, surface, factors, rays, corners, FindFacet<false>(rays, corners.Positions()),
-                  samples, points, lobes, i);
-      }
-    }
-  }
+  VisitSurfaceHits(source, surface, samples, [&](const auto& hits, std::size_t i) HWY_ATTR {
+    FindLobes(source, surface, factors, hits, samples.id.data() + i, points, lobes, i);
+  });
 }
 
 }  // namespace laterna::shade::HWY_NAMESPACE

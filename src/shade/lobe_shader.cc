@@ -9,6 +9,7 @@ LobeShader::LobeShader(const PointSource& source, const LobeJob& job, Instructio
       light_coat_(light_coat_for(set)),
       reflect_layered_(reflect_layered_for(set)),
       find_layered_ambient_(find_layered_ambient_for(set)),
+      reflect_layered_baked_(reflect_layered_baked_for(set)),
       reflect_layered_environment_(reflect_layered_environment_for(set)),
       transmit_(transmit_for(set)) {}
 
@@ -32,6 +33,10 @@ void LobeShader::widen(Irradiance& irradiance) const {
 void LobeShader::reflect(const Irradiance& irradiance, const shadow::Arrival& arrival, float fill, bool add,
                          Radiance& radiance) const {
   reflect_layered_(surface_, samples_->group_count, irradiance, arrival, fill, add, radiance);
+}
+
+void LobeShader::reflect_baked(const BakedIrradiance& irradiance, Radiance& radiance) const {
+  reflect_layered_baked_(surface_, samples_->group_count, irradiance, radiance);
 }
 
 void LobeShader::reflect_environment(const EnvironmentLight& light, bool add, Radiance& radiance) const {

@@ -30,6 +30,7 @@ class LobeShader {
   /// As reflect().
   void reflect(const Irradiance& irradiance, const shadow::Arrival& arrival, float fill, bool add,
                Radiance& radiance) const;
+  void reflect_baked(const BakedIrradiance& irradiance, Radiance& radiance) const;
   void reflect_environment(const EnvironmentLight& light, bool add, Radiance& radiance) const;
 
  private:
@@ -39,6 +40,7 @@ class LobeShader {
   LightCoat light_coat_;
   ReflectLayered reflect_layered_;
   FindLayeredAmbient find_layered_ambient_;
+  ReflectLayeredBaked reflect_layered_baked_;
   ReflectLayeredEnvironment reflect_layered_environment_;
   Transmit transmit_;
   LobePoints lobe_points_;

@@ -5,13 +5,14 @@
 
 namespace laterna::shade {
 
-MirrorPicture::MirrorPicture(const light::MirrorView& seen, const Mirror& mirror, int width, double seconds)
+MirrorPicture::MirrorPicture(const light::MirrorView& seen, const Mirror& mirror, int width, int height,
+                             double seconds)
     : mirror_(&mirror),
-      normal_ws_(seen.normal_ws),
+      seen_(seen),
       seconds_(seconds),
       picture_width_(width),
-      drawn_(seen.box),
-      box_(light::mirrored(seen.box, width)),
+      picture_height_(height),
+      box_(seen.is_refracted ? seen.box : light::mirrored(seen.box, width)),
       levels_(1) {
   Level& finest = levels_[0];
   finest.width = box_.x_end - box_.x_begin;
@@ -22,23 +23,47 @@ MirrorPicture::MirrorPicture(const light::MirrorView& seen, const Mirror& mirror
 void MirrorPicture::write(int tile_x, int tile_y, const TileResult& tile) {
   constexpr int kSide = raster::kTileSide;
   Level& finest = levels_[0];
-  const int x_begin = std::max(drawn_.x_begin, tile_x * kSide),
-            x_end = std::min(drawn_.x_end, (tile_x + 1) * kSide);
-  const int y_begin = std::max(drawn_.y_begin, tile_y * kSide),
-            y_end = std::min(drawn_.y_end, (tile_y + 1) * kSide);
+  const light::PixelBox& drawn = seen_.box;
+  const int x_begin = std::max(drawn.x_begin, tile_x * kSide),
+            x_end = std::min(drawn.x_end, (tile_x + 1) * kSide);
+  const int y_begin = std::max(drawn.y_begin, tile_y * kSide),
+            y_end = std::min(drawn.y_end, (tile_y + 1) * kSide);
   for (int y = y_begin; y < y_end; ++y) {
     glm::vec4* row = finest.pixels.data() +
                      static_cast<std::size_t>(y - box_.y_begin) * static_cast<std::size_t>(finest.width);
     for (int x = x_begin; x < x_end; ++x) {
       const auto i = static_cast<std::size_t>(raster::index_in_tile(x - tile_x * kSide, y - tile_y * kSide));
       const float nearness = needs_depth() ? 1 / tile.depth[i] : 0;
-      row[picture_width_ - 1 - x - box_.x_begin] = {tile.beauty.r[i], tile.beauty.g[i], tile.beauty.b[i],
-                                                    nearness};
+      const int column = seen_.is_refracted ? x : picture_width_ - 1 - x;
+      row[column - box_.x_begin] = {tile.beauty.r[i], tile.beauty.g[i], tile.beauty.b[i], nearness};
+    }
+  }
+}
+
+// How far what is shown reaches.
+void MirrorPicture::find_extent() {
+  const raster::RasterView drawn(seen_.view, picture_width_, picture_height_);
+  const Level& finest = levels_[0];
+  for (int y = 0; y < finest.height; ++y) {
+    for (int x = 0; x < finest.width; ++x) {
+      const float nearness = finest.at(x, y).w;
+      if (nearness <= 0) continue;
+      farthest_ = std::max(farthest_, 1 / nearness);
+      if (!seen_.is_refracted) continue;
+      const double pixel_x = box_.x_begin + x + 0.5 - drawn.origin_x,
+                   pixel_y = box_.y_begin + y + 0.5 - drawn.origin_y;
+      const glm::dvec3 ray = drawn.direction_0 + drawn.direction_x * pixel_x + drawn.direction_y * pixel_y;
+      const double distance = 1 / static_cast<double>(nearness);
+      const glm::dvec3 place = drawn.is_orthographic
+                                   ? ray + drawn.axis_ws * drawn.reversed_from_distance(distance)
+                                   : drawn.eye_ws + ray * distance;
+      deepest_ = std::max(deepest_, side(place));
     }
   }
 }
 
 void MirrorPicture::finish() {
+  if (needs_depth()) find_extent();
   if (mirror_->roughness == 0) return;
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     const Level& fine = levels_.back();
@@ -64,6 +89,23 @@ const glm::vec4& MirrorPicture::Level::at(int x, int y) const {
 
 const glm::vec4& MirrorPicture::at(int x, int y) const {
   return levels_[0].at(x - box_.x_begin, y - box_.y_begin);
+}
+
+const glm::vec4& MirrorPicture::nearest(float x, float y) const {
+  const auto pixel = [](float place, int begin, int end) {
+    return static_cast<int>(
+        std::clamp(std::floor(place), static_cast<float>(begin), static_cast<float>(end - 1)));
+  };
+  return at(pixel(x, box_.x_begin, box_.x_end), pixel(y, box_.y_begin, box_.y_end));
+}
+
+float MirrorPicture::nearness(float x, float y) const {
+  constexpr float kMostChange = 0.02F;  // of the nearest, from pixel to pixel of one surface
+  const auto corner = [](float place) { return std::clamp(std::floor(place - 0.5F), -1e6F, 1e6F); };
+  const int i = static_cast<int>(corner(x)), j = static_cast<int>(corner(y));
+  const float taps[] = {at(i, j).w, at(i + 1, j).w, at(i, j + 1).w, at(i + 1, j + 1).w};
+  const auto [least, most] = std::minmax_element(std::begin(taps), std::end(taps));
+  return *most - *least <= kMostChange * *most ? interpolated(x, y, 0).w : nearest(x, y).w;
 }
 
 int MirrorPicture::level_of(float side) const {

@@ -1,4 +1,5 @@
-// What a mirror shows to a view: a picture of the mirrored view, turned so that its pixels are the view's.
+// What a mirror shows to a view, or what is seen through it: a picture whose pixels are the view's. That of a mirrored view is
+// turned for it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,14 +14,21 @@ namespace laterna::shade {
 
 class MirrorPicture {
  public:
-  /// `seen`: drawn into a picture that is `width` pixels wide. `mirror` must outlive it.
-  MirrorPicture(const light::MirrorView& seen, const Mirror& mirror, int width, double seconds);
+  /// `seen`: drawn into a picture of `width` × `height` pixels. `mirror` must outlive this.
+  MirrorPicture(const light::MirrorView& seen, const Mirror& mirror, int width, int height, double seconds);
 
   [[nodiscard]] const Mirror& mirror() const { return *mirror_; }
-  [[nodiscard]] const glm::dvec3& normal_ws() const { return normal_ws_; }
+  /// Of the mirror, toward the eye.
+  [[nodiscard]] const glm::dvec3& normal_ws() const { return seen_.normal_ws; }
+  /// Whether the eye is on the side of the mirror's volume.
+  [[nodiscard]] bool sees_back() const { return seen_.sees_back; }
+  /// Metres from the mirror's plane into what is shown.
+  [[nodiscard]] double side(const glm::dvec3& position_ws) const { return seen_.side(position_ws); }
   [[nodiscard]] double seconds() const { return seconds_; }
   /// Whether depths are looked at: WantedLayers::geometry must be set.
-  [[nodiscard]] bool needs_depth() const { return mirror_->roughness > 0 || !mirror_->waves.empty(); }
+  [[nodiscard]] bool needs_depth() const {
+    return mirror_->roughness > 0 || !mirror_->waves.empty() || seen_.is_refracted;
+  }
 
   /// A tile of the mirrored picture. Calls for different tiles may come from several threads at once.
   void write(int tile_x, int tile_y, const TileResult& tile);
@@ -31,6 +39,14 @@ class MirrorPicture {
   [[nodiscard]] const glm::vec4& at(int x, int y) const;
   /// The same between pixels' centres, x and y from the picture's corner, of means over 2^level × 2^level pixels.
   [[nodiscard]] glm::vec4 interpolated(float x, float y, int level) const;
+  /// What at() has at the pixel that a place of the picture lies in, wherever that is.
+  [[nodiscard]] const glm::vec4& nearest(float x, float y) const;
+  /// 1 / metres at a place of the picture: between pixels on a surface, and of the pixel that the place lies in where surfaces end.
+  [[nodiscard]] float nearness(float x, float y) const;
+  /// Of all that is shown, metres along the axis; 0 where there is nothing.
+  [[nodiscard]] float farthest() const { return farthest_; }
+  /// The same, from the mirror's plane.
+  [[nodiscard]] double deepest() const { return deepest_; }
   /// The level whose pixels are at most `side` of the finest wide.
   [[nodiscard]] int level_of(float side) const;
 
@@ -41,11 +57,15 @@ class MirrorPicture {
     [[nodiscard]] const glm::vec4& at(int x, int y) const;
   };
 
+  void find_extent();
+
   const Mirror* mirror_;
-  glm::dvec3 normal_ws_;
+  light::MirrorView seen_;
   double seconds_;
-  int picture_width_;
-  light::PixelBox drawn_, box_;  // of the mirrored picture, and the same of the view's
+  int picture_width_, picture_height_;
+  light::PixelBox box_;  // of the view's picture
+  float farthest_ = 0;
+  double deepest_ = 0;
   std::vector<Level> levels_;
 };
 

@@ -40,7 +40,7 @@ class ReliefKeeper {
     auto kept = displaced.q >= displaced.q;  // all
     const bool is_cut_out = surface_.alpha_mode == AlphaMode::mask;
     if (!is_cut_out && !surface_.relief.cut_edges) return BitsOf(kept);
-    const Hit hit = FindReliefHit(source_.rays, facet_, x, y, displaced.q).hit;
+    const Hit hit = FindReliefHit(source_.rays, facet_, x, y, displaced.q);
     if (surface_.relief.cut_edges) kept = hn::Or(IsOnChart(hit.weights), displaced.t <= Splat(0.0F));
     if (is_cut_out) {
       const auto alpha = frame::HWY_NAMESPACE::AlphaInView(frame_, surface_, corners_, hit.weights,

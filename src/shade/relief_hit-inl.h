@@ -19,28 +19,21 @@ using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 using frame::HWY_NAMESPACE::LatticePoint;
 using frame::HWY_NAMESPACE::ReliefCoordinates;
 
-// A hit below or on the plane of its triangle, with the change of depth from pixel to pixel on the plane through it that is
-// parallel to the triangle's. Texture coordinates, normals and the rest are those of the point of the triangle's plane straight
-// above, which may lie beyond the triangle's own sides: weights are not held to them.
-struct ReliefHit {
-  Hit hit;
-  FloatVector dq_dx, dq_dy;
-};
-
-HWY_INLINE ReliefHit FindReliefHit(const PixelRays& rays, const Facet& facet, FloatVector x, FloatVector y,
-                                   FloatVector q) {
+// A hit below or on the plane of its triangle. Texture coordinates, normals and the rest are those of the point of the
+// triangle's plane straight above, which may lie beyond the triangle's own sides: weights are not held to them.
+HWY_INLINE Hit FindReliefHit(const PixelRays& rays, const Facet& facet, FloatVector x, FloatVector y,
+                             FloatVector q) {
   const Vector3 direction_x = Splat3(rays.direction_x), direction_y = Splat3(rays.direction_y);
   const Vector3 direction = Splat3(rays.direction_0) + (direction_x * x + direction_y * y);
-  ReliefHit found;
-  Hit& hit = found.hit;
+  Hit hit;
   Vector3 dp_dx, dp_dy;
   if (rays.is_orthographic) {
     const Vector3 axis = Splat3(rays.axis);
     hit.position_ws = direction + axis * q;
-    found.dq_dx = facet.dq_dx;
-    found.dq_dy = facet.dq_dy;
-    dp_dx = direction_x + axis * found.dq_dx;
-    dp_dy = direction_y + axis * found.dq_dy;
+    hit.dq_dx = facet.dq_dx;
+    hit.dq_dy = facet.dq_dy;
+    dp_dx = direction_x + axis * hit.dq_dx;
+    dp_dy = direction_y + axis * hit.dq_dy;
     hit.to_eye_ws = axis;
   } else {
     const auto w = Splat(1.0F) / q;
@@ -48,17 +41,17 @@ HWY_INLINE ReliefHit FindReliefHit(const PixelRays& rays, const Facet& facet, Fl
     hit.position_ws = Splat3(rays.eye) + from_eye;
     const auto inverse = InverseUnless<false>(hn::Abs(Dot(facet.normal, from_eye)) <= Splat(1e-30F),
                                               Dot(facet.normal, from_eye));
-    found.dq_dx = Dot(facet.normal, direction_x) * inverse;
-    found.dq_dy = Dot(facet.normal, direction_y) * inverse;
-    dp_dx = (direction_x - from_eye * found.dq_dx) * w;
-    dp_dy = (direction_y - from_eye * found.dq_dy) * w;
+    hit.dq_dx = Dot(facet.normal, direction_x) * inverse;
+    hit.dq_dy = Dot(facet.normal, direction_y) * inverse;
+    dp_dx = (direction_x - from_eye * hit.dq_dx) * w;
+    dp_dy = (direction_y - from_eye * hit.dq_dy) * w;
     hit.to_eye_ws = Normalised(direction * Splat(-1.0F));
   }
   hit.shows_back = Dot(facet.normal, hit.to_eye_ws) < Splat(0.0F);
   const Vector3 p = hit.position_ws - facet.corners.a;
   hit.weights = {Dot(p, facet.to_b),     Dot(p, facet.to_c),     Dot(dp_dx, facet.to_b),
                  Dot(dp_dy, facet.to_b), Dot(dp_dx, facet.to_c), Dot(dp_dy, facet.to_c)};
-  return found;
+  return hit;
 }
 
 // A sample of a triangle's plane, pushed back to the relief.
@@ -72,7 +65,7 @@ HWY_INLINE Displaced DisplaceSample(const PixelRays& rays, const Facet& facet,
                                     const frame::ReliefBinding& relief, const ReliefCoordinates& coordinates,
                                     FloatVector x, FloatVector y, FloatVector q) {
   const auto zero = Splat(0.0F);
-  const Hit on_plane = FindReliefHit(rays, facet, x, y, q).hit;
+  const Hit on_plane = FindReliefHit(rays, facet, x, y, q);
   // To grazing rays the surface is as if it were seen under a gradient of 1 : 10000.
   const auto facing = Dot(facet.unit_normal, on_plane.to_eye_ws);
   const auto into = hn::Max(facing, Splat(1e-4F));
@@ -99,11 +92,14 @@ HWY_INLINE Displaced DisplaceSample(const PixelRays& rays, const Facet& facet,
 }
 
 // The normal of the relief, from what it is over the flat triangle: heights' slopes across a pixel, or across a texel where that
-// is wider, are taken off it.
-HWY_INLINE Vector3 ReliefNormal(const Facet& facet, const frame::ReliefBinding& relief,
-                                const ReliefCoordinates& coordinates, const Weights& weights,
-                                const Vector3& normal) {
+// is wider, are taken off it. Seen from the back the triangle is flat.
+template <bool kUniform>
+HWY_INLINE Vector3 ReliefNormal(const frame::Frame& frame, const frame::ReliefBinding& relief,
+                                const frame::HWY_NAMESPACE::TriangleCorners<kUniform>& corners,
+                                const Facet& facet, const Hit& hit, const Vector3& normal) {
   const auto half = Splat(0.5F);
+  const Weights& weights = hit.weights;
+  const ReliefCoordinates coordinates = frame::HWY_NAMESPACE::FindReliefCoordinates(frame, relief, corners);
   const LatticePoint p = coordinates.At(weights.b, weights.c);
   const LatticePoint per_x = coordinates.Change(weights.db_dx, weights.dc_dx),
                      per_y = coordinates.Change(weights.db_dy, weights.dc_dy);
@@ -119,7 +115,9 @@ HWY_INLINE Vector3 ReliefNormal(const Facet& facet, const frame::ReliefBinding& 
   const auto gradient = [&](const frame::HWY_NAMESPACE::CornerValues& v)
                             HWY_ATTR { return facet.to_b * (v.b - v.a) + facet.to_c * (v.c - v.a); };
   // Depth grows against the normal.
-  return Normalised(normal + (gradient(coordinates.x) * slope_x + gradient(coordinates.y) * slope_y));
+  const Vector3 tilted =
+      Normalised(normal + (gradient(coordinates.x) * slope_x + gradient(coordinates.y) * slope_y));
+  return IfThenElse3(hit.shows_back, normal, tilted);
 }
 
 }  // namespace laterna::shade::HWY_NAMESPACE

@@ -36,6 +36,8 @@ struct Hit {
   Vector3 position_ws, to_eye_ws;  // to_eye: unit
   FloatMask shows_back;            // of the triangle
   Weights weights;
+  FloatVector dq_dx,
+      dq_dy;  // change of depth from pixel to pixel, on the plane of the triangle or on one parallel to it
 };
 
 // 1 / v and √v of numbers that are the same in all lanes where kUniform: vectors take far longer than one number.
@@ -120,6 +122,8 @@ HWY_INLINE Hit FindHit(const PixelRays& rays, const Facet& facet, FloatVector x,
   const Vector3 direction_x = Splat3(rays.direction_x), direction_y = Splat3(rays.direction_y);
   const Vector3 direction = Splat3(rays.direction_0) + (direction_x * x + direction_y * y);
   Hit hit;
+  hit.dq_dx = facet.dq_dx;
+  hit.dq_dy = facet.dq_dy;
   Vector3 dp_dx, dp_dy;  // how the point moves on the plane from one pixel to the next
   if (rays.is_orthographic) {
     const Vector3 axis = Splat3(rays.axis);

@@ -11,8 +11,7 @@
 #include "frame/texture_coordinates-inl.h"
 #include "frame/triangle_corners-inl.h"
 #include "image/texture_lookup-inl.h"
-#include "shade/relief_hit-inl.h"
-#include "shade/surface_hit-inl.h"
+#include "shade/surface_hits-inl.h"
 #include "shade/surface_points.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,22 +26,21 @@ using frame::HWY_NAMESPACE::kNormalField;
 using frame::HWY_NAMESPACE::kTangentField;
 using frame::HWY_NAMESPACE::TriangleCorners;
 using image::HWY_NAMESPACE::LookUp;
-using shadow::kGroupSize;
 
 HWY_INLINE Vector3 Product(const Vector3& a, const Vector3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 // Surface attributes at the samples of one vector.
-template <bool kUniform>
+template <bool kUniform, bool kOnRelief>
 class SurfaceReader {
  public:
   HWY_INLINE SurfaceReader(const PointSource& source, const frame::Surface& surface,
-                           const TriangleCorners<kUniform>& corners, const Facet& facet, const Hit& hit)
+                           const SurfaceHits<kUniform, kOnRelief>& hits)
       : source_(source),
         surface_(surface),
         frame_(*source.frame),
-        corners_(corners),
-        facet_(facet),
-        hit_(hit) {}
+        corners_(hits.corners),
+        facet_(hits.facet),
+        hit_(hits.hit) {}
 
   HWY_INLINE Vector3 LookUpTexture(const frame::TextureBinding& binding) const {
     return LookUp(*binding.chain, binding.sampler, source_.anisotropy,
@@ -78,7 +76,11 @@ class SurfaceReader {
       normal = {stream.OrElse(smooth.x, normal.x), stream.OrElse(smooth.y, normal.y),
                 stream.OrElse(smooth.z, normal.z)};
     }
-    if (surface_.normal_texture.chain != nullptr) normal = Perturbed(normal);
+    if (surface_.normal_texture.chain != nullptr) {
+      normal = Perturbed(normal);  // of a relief, too: it was made from the same heights
+    } else if constexpr (kOnRelief) {
+      normal = ReliefNormal(frame_, surface_.relief, corners_, facet_, hit_, normal);
+    }
     return surface_.double_sided ? IfThenElse3(hit_.shows_back, normal * Splat(-1.0F), normal) : normal;
   }
 
@@ -118,25 +120,27 @@ HWY_INLINE void Store3(const Vector3& v, float* x, float* y, float* z, std::size
 }
 
 // What is read at hits.
-template <bool kUniform>
+template <bool kUniform, bool kOnRelief>
 HWY_INLINE void StorePoints(const PointSource& source, const frame::Surface& surface,
-                            const TriangleCorners<kUniform>& corners, const Facet& facet, const Hit& hit,
-                            shadow::SurfaceSamples& s, SurfacePoints& p, std::size_t i) {
+                            const SurfaceHits<kUniform, kOnRelief>& hits, shadow::SurfaceSamples& s,
+                            SurfacePoints& p, std::size_t i) {
   const FloatTag d;
-  const SurfaceReader<kUniform> reader(source, surface, corners, facet, hit);
+  const Facet& facet = hits.facet;
+  const Hit& hit = hits.hit;
+  const SurfaceReader reader(source, surface, hits);
   const Vector3 seen_normal =
       IfThenElse3(hit.shows_back, facet.unit_normal * Splat(-1.0F), facet.unit_normal);
   Store3(hit.position_ws, s.x_ws.data(), s.y_ws.data(), s.z_ws.data(), i);
   Store3(seen_normal, s.normal_x_ws.data(), s.normal_y_ws.data(), s.normal_z_ws.data(), i);
-  hn::Store(facet.dq_dx, d, s.dq_dx.data() + i);
-  hn::Store(facet.dq_dy, d, s.dq_dy.data() + i);
+  hn::Store(hit.dq_dx, d, s.dq_dx.data() + i);
+  hn::Store(hit.dq_dy, d, s.dq_dy.data() + i);
   Store3(hit.to_eye_ws, p.to_eye_x_ws.data(), p.to_eye_y_ws.data(), p.to_eye_z_ws.data(), i);
   Store3(reader.ShadingNormal(), p.normal_x_ws.data(), p.normal_y_ws.data(), p.normal_z_ws.data(), i);
 
   Store3(reader.BaseColor(), p.base_r.data(), p.base_g.data(), p.base_b.data(), i);
   auto alpha = Splat(1.0F);
   if (surface.alpha_mode == AlphaMode::blend)
-    alpha = AlphaInView(*source.frame, surface, corners, hit.weights, source.anisotropy);
+    alpha = AlphaInView(*source.frame, surface, hits.corners, hit.weights, source.anisotropy);
   hn::Store(alpha, d, p.alpha.data() + i);
 
   auto metallic = Splat(surface.metallic), roughness = Splat(surface.roughness), occlusion = Splat(1.0F);
@@ -159,61 +163,11 @@ HWY_INLINE void StorePoints(const PointSource& source, const frame::Surface& sur
   Store3(emissive, p.emissive_r.data(), p.emissive_g.data(), p.emissive_b.data(), i);
 }
 
-template <bool kUniform>
-HWY_INLINE void FindPoints(const PointSource& source, const frame::Surface& surface, const PixelRays& rays,
-                           const TriangleCorners<kUniform>& corners, const Facet& facet,
-                           shadow::SurfaceSamples& s, SurfacePoints& p, std::size_t i) {
-  const FloatTag d;
-  const Hit hit = FindHit(rays, facet, hn::Load(d, s.x.data() + i), hn::Load(d, s.y.data() + i),
-                          hn::Load(d, s.q.data() + i), source.interpolation);
-  StorePoints(source, surface, corners, facet, hit, s, p, i);
-}
-
-// Samples that lie on the relief of their triangles. A normal map says what the normal is: it was made from the same heights.
-HWY_NOINLINE void FindReliefPoints(const PointSource& source, const frame::Surface& surface,
-                                   const PixelRays& rays, shadow::SurfaceSamples& s, SurfacePoints& p) {
-  const FloatTag d;
-  for (std::size_t i = 0; i < s.group_count * kGroupSize; i += kLanes) {
-    const TriangleCorners<false> corners(*source.frame, s.id.data() + i);
-    const Facet facet = FindFacet<false>(rays, corners.Positions());
-    const ReliefHit found = FindReliefHit(rays, facet, hn::Load(d, s.x.data() + i),
-                                          hn::Load(d, s.y.data() + i), hn::Load(d, s.q.data() + i));
-    StorePoints(source, surface, corners, facet, found.hit, s, p, i);
-    hn::Store(found.dq_dx, d, s.dq_dx.data() + i);
-    hn::Store(found.dq_dy, d, s.dq_dy.data() + i);
-    if (surface.normal_texture.chain != nullptr) continue;
-    const auto coordinates =
-        frame::HWY_NAMESPACE::FindReliefCoordinates(*source.frame, surface.relief, corners);
-    const Vector3 normal = {hn::Load(d, p.normal_x_ws.data() + i), hn::Load(d, p.normal_y_ws.data() + i),
-                            hn::Load(d, p.normal_z_ws.data() + i)};
-    const Vector3 relief = ReliefNormal(facet, surface.relief, coordinates, found.hit.weights, normal);
-    Store3(IfThenElse3(found.hit.shows_back, normal, relief), p.normal_x_ws.data(), p.normal_y_ws.data(),
-           p.normal_z_ws.data(), i);
-  }
-}
-
 void find_surface_points(const PointSource& source, const frame::Surface& surface,
                          shadow::SurfaceSamples& samples, SurfacePoints& points) {
-  const PixelRays rays(*source.view);
-  if (HWY_UNLIKELY(surface.relief.field != nullptr)) {
-    FindReliefPoints(source, surface, rays, samples, points);
-    return;
-  }
-  const TriangleId* ids = samples.id.data();
-  for (std::size_t first = 0; first < samples.group_count * kGroupSize; first += kGroupSize) {
-    if (IsOneTriangle(ids + first)) {
-      const TriangleCorners<true> corners(*source.frame, ids + first);
-      const Facet facet = FindFacet<true>(rays, corners.Positions());
-      for (std::size_t i = first; i < first + kGroupSize; i += kLanes)
-        FindPoints(source, surface, rays, corners, facet, samples, points, i);
-    } else {
-      for (std::size_t i = first; i < first + kGroupSize; i += kLanes) {
-        const TriangleCorners<false> corners(*source.frame, ids + i);
-        FindPoints(source, surface, rays, corners, FindFacet<false>(rays, corners.Positions()), samples,
-                   points, i);
-      }
-    }
-  }
+  VisitSurfaceHits(source, surface, samples, [&](const auto& hits, std::size_t i) HWY_ATTR {
+    StorePoints(source, surface, hits, samples, points, i);
+  });
 }
 
 }  // namespace laterna::shade::HWY_NAMESPACE

@@ -38,7 +38,7 @@ class TileShader::Worker {
         fill_from_blocks_(fill_from_blocks_for(job.instruction_set)),
         groups_(*job.frame) {
     if (!job.mirrors.mirror_of_cluster.empty())
-      mirror_shader_ = std::make_unique<MirrorShader>(job.mirrors, *job.view);
+      mirror_shader_ = std::make_unique<MirrorShader>(job.mirrors, *job.view, sampled_at());
   }
 
   const TileResult& shade(int tile_x, int tile_y) {
@@ -235,6 +235,12 @@ class TileShader::Worker {
 
   // -------------------------------------------------------------------------------------------- mirrors
 
+  // Where mirrored pictures have the one sample of a pixel; several are a mean about its centre.
+  [[nodiscard]] glm::vec2 sampled_at() const {
+    if (offsets_.size() > 1) return glm::vec2(0);
+    return glm::vec2(offsets_[0].x, offsets_[0].y) / 256.0F;
+  }
+
   // A pixel of the tile, at the sample that is being shaded.
   [[nodiscard]] MirrorSample mirror_sample(std::uint32_t pixel, float q) const {
     const std::uint32_t block = pixel / kGroupSize, within = pixel % kGroupSize;
@@ -265,7 +271,20 @@ class TileShader::Worker {
     }
   }
 
-  // The same for a fragment that blends: what it lets through and its own surface share what is not mirrored.
+  // What lies behind water is seen where the ray that it bends ends, not straight behind.
+  void refract_in_fragment(const raster::Fragment& fragment) {
+    const MirrorPicture* picture = mirror_shader_->refracted_by(fragment.id);
+    if (picture == nullptr) return;
+    const glm::vec3 seen =
+        mirror_shader_->refract(*picture, mirror_sample(fragment.pixel, fragment.reversed_depth));
+    for (TileColor& plane : planes_) weigh(plane, fragment.pixel, glm::vec3(0));
+    planes_[0].r[fragment.pixel] = seen.r;
+    planes_[0].g[fragment.pixel] = seen.g;
+    planes_[0].b[fragment.pixel] = seen.b;
+    coverage_[fragment.pixel] = 1;
+  }
+
+  // What mirrors show, over a fragment that blends: what it lets through and its own surface share what is not mirrored.
   void reflect_in_fragment(const raster::Fragment& fragment) {
     const MirrorPicture* picture = mirror_shader_->picture_of(fragment.id);
     if (picture == nullptr) return;
@@ -304,6 +323,7 @@ class TileShader::Worker {
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t pixel = fragments_.list()[i].pixel;
       const float a = alpha[i];
+      if (mirror_shader_ != nullptr) refract_in_fragment(fragments_.list()[i]);
       const auto over = [&](float& below, float value) { below = below * (1 - a) + value * a; };
       for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
         over(planes_[plane].r[pixel], targets[plane].r[i]);

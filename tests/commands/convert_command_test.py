@@ -30,8 +30,9 @@ def load(schema):
 def check(schema, instance):
     with warnings.catch_warnings():  # its successor is not in Debian 12
         warnings.simplefilter("ignore", DeprecationWarning)
-        resolver = jsonschema.RefResolver("", {}, store={"definitions.schema.json": load("definitions")})
-        jsonschema.Draft202012Validator(load(schema), resolver=resolver).validate(instance)
+        known = {f"{name}.schema.json": load(name) for name in ("definitions", schema)}
+        resolver = jsonschema.RefResolver("", {}, store=known)
+        jsonschema.Draft202012Validator(known[f"{schema}.schema.json"], resolver=resolver).validate(instance)
 
 
 def extensions(value, name):
@@ -78,7 +79,7 @@ class Convert(unittest.TestCase):
         written = self.folder / "a.glb"
         done = run("convert", SCENES / "stage.glb", "--rig", rig, "--time", "1", "-o", written)
         self.assertEqual(done.returncode, OK, done.stderr)
-        self.assertIn("animation is not carried", done.stderr)
+        self.assertIn("animation is left out: the file shows the scene at 1 s", done.stderr)
         pictures = []
         for i, source in enumerate([[SCENES / "stage.glb", "--rig", rig, "--time", "1"], [written]]):
             picture = self.folder / f"{i}.pfm"
@@ -86,6 +87,30 @@ class Convert(unittest.TestCase):
             self.assertEqual(done.returncode, OK, done.stderr)
             pictures.append(picture.read_bytes())
         self.assertEqual(pictures[0], pictures[1])
+
+    def test_paths_go_along(self):
+        rig = self.folder / "rig.json"
+        rig.write_text(json.dumps({"cameras": [{"name": "main", "position": [0, 2, 6], "target": [0, 1, 0], "yfov_deg": 40,
+            "path": {"at_end": "ping_pong", "keys": [{"time": 0, "position": [0, 2, 6]}, {"time": 2, "position": [4, 2, 5]}]}}],
+            "lights": [{"name": "lamp", "type": "projector", "position": [0, 2, 4], "target": [0, 1, 0], "yfov_deg": 30, "candela": 50,
+                        "path": {"keys": [{"time": 0, "candela": 50}, {"time": 2, "candela": 200}]}}]}))
+        written = self.folder / "a.gltf"
+        done = run("convert", SCENES / "stage.glb", "--rig", rig, "-o", written)
+        self.assertEqual((done.returncode, done.stderr), (OK, ""))
+        gltf = json.loads(written.read_text())
+        self.assertEqual([a["name"] for a in gltf["animations"]], ["path of main", "path of lamp"])
+        for animation in gltf["animations"]:
+            check("animation.LATERNA_lighting", animation["extensions"]["LATERNA_lighting"])
+        for time in ("0.5", "3"):
+            pictures = []
+            for i, source in enumerate([[SCENES / "stage.glb", "--rig", rig], [written]]):
+                picture = self.folder / f"{i}.exr"
+                done = run("render", *source, "--time", time, "-o", picture, "--size", "96x64", "--depth", "float")
+                self.assertEqual(done.returncode, OK, done.stderr)
+                pictures.append(picture)
+            # Keys are in single precision: a hundred-thousandth, but for pixels on an edge.
+            told = json.loads(run("diff", *pictures, "--json").stdout)
+            self.assertLess(told["rms_error"], 1e-4, told)
 
     def test_the_schemas_accept_what_is_written(self):
         for scene, rig in [("stage.glb", "stage.json"), ("table.glb", "table.json"), ("room.glb", "lamp.json"),
@@ -102,15 +127,29 @@ class Convert(unittest.TestCase):
                         if "LATERNA_lighting" in owner.get("extensions", {}):
                             check(place + ".LATERNA_lighting", owner["extensions"]["LATERNA_lighting"])
 
+    def test_mirrors_are_carried(self):
+        rig = self.folder / "mirror.json"
+        rig.write_text(json.dumps({"surfaces": [{"material": "boards", "mirror": {
+            "reflectance": [0.8, 0.9, 1], "ior": 1.5, "roughness": 0.2,
+            "waves": [{"direction": [1, 0, 0.3], "length": 0.5, "amplitude": 0.01, "speed": 1, "phase_deg": 40}]}}]}))
+        written = self.folder / "a.gltf"
+        done = run("convert", SCENES / "room.glb", "--rig", rig, "-o", written)
+        self.assertEqual((done.returncode, done.stderr), (OK, ""))
+        mirrors = list(extensions(json.loads(written.read_text())["materials"], "LATERNA_mirror"))
+        self.assertEqual(len(mirrors), 1)
+        self.assertEqual(mirrors[0]["reflectance"], [0.8, 0.9, 1])
+        check("material.LATERNA_mirror", mirrors[0])
+
     def known_keys(self, place, extension):
         """The keys that the reader names where none of them is right."""
         gltf = {"asset": {"version": "2.0"}, "scenes": [{}], "scene": 0,
                 "nodes": [{"extensions": {"KHR_lights_punctual": {"light": 0}}, "camera": 0}],
                 "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+                "animations": [{"channels": [], "samplers": []}],
                 "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {}}]}}}
         gltf["scenes"][0]["nodes"] = [0]
         owners = {"light": gltf["extensions"]["KHR_lights_punctual"]["lights"][0], "camera": gltf["cameras"][0],
-                  "node": gltf["nodes"][0], "scene": gltf["scenes"][0]}
+                  "node": gltf["nodes"][0], "scene": gltf["scenes"][0], "animation": gltf["animations"][0]}
         keys = list(load(f"{place}.{extension}")["properties"])
         # Not null: a value of another type is no unknown key.
         owners[place].setdefault("extensions", {})[extension] = {key: [{}] for key in keys + ["not_a_key"]}
@@ -121,7 +160,8 @@ class Convert(unittest.TestCase):
 
     def test_the_reader_knows_the_keys_of_the_schemas(self):
         for place, extension in [("light", "LATERNA_projector"), ("camera", "LATERNA_lighting"),
-                                 ("node", "LATERNA_lighting"), ("scene", "LATERNA_lighting")]:
+                                 ("node", "LATERNA_lighting"), ("scene", "LATERNA_lighting"),
+                                 ("animation", "LATERNA_lighting")]:
             with self.subTest(place=place, extension=extension):
                 _, unknown = self.known_keys(place, extension)
                 self.assertEqual(unknown, {"not_a_key"})

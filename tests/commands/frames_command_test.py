@@ -249,6 +249,56 @@ class Frames(unittest.TestCase):
         film = (self.at / "out.incomplete.gif").read_bytes()
         self.assertEqual((film[:6], film[-1:]), (b"GIF89a", b";"))
 
+    def kill(self, output, enough):
+        """SIGKILL once what is written is `enough`; nothing may go on after it."""
+        with subprocess.Popen(
+                [LATERNA, "render", str(SCENES / "stage.glb"), "--rig", str(self.at / "rig.json"), "--size", "160x120",
+                 "--frames", "0:9999", "-o", str(self.at / output)], stderr=subprocess.DEVNULL) as process:
+            until = time.monotonic() + 60
+            while time.monotonic() < until and not enough():
+                time.sleep(0.003)
+            process.kill()
+        self.assertEqual(process.returncode, -signal.SIGKILL)
+
+    def test_a_kill_leaves_whole_pictures(self):
+        for k in range(1, 6):
+            self.kill("k.####.png", lambda k=k: len(self.names(".png")) >= 3 * k)
+            names = self.names(".png")
+            self.assertEqual(names, [f"k.{i:04}.png" for i in range(len(names))])
+            for name in names:
+                self.assertEqual((self.at / name).read_bytes()[-8:-4], b"IEND", name)
+            # What was at work leaves at most one hidden file.
+            parts = self.names(".part")
+            self.assertLessEqual(len(parts), 1)
+            for part in parts:
+                (self.at / part).unlink()
+        last = len(self.names(".png")) - 1
+        done = self.render("--frames", f"0:{last + 1}", "--size", "160x120", "-o", str(self.at / "k.####.png"), "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"{last + 1} of {last + 2} frames are there already", done.stderr)
+
+    def test_a_kill_leaves_a_film_that_can_be_played(self):
+        for output in ("a.gif", "a.mkv", "a.mp4", "a.webm"):
+            done = self.render("--frames", "0:1", "-o", str(self.at / f"probe-{output}"))
+            if done.returncode == 2 and "FFmpeg" in done.stderr:
+                continue
+            for frames in (2, 5):
+                self.kill(output, lambda k=frames: self.bytes_written_to(output) > 2000 * k)
+                (part,) = [p for p in self.names(".part") if output in p]
+                (self.at / part).rename(self.at / output)
+                rig = json.loads(json.dumps(RIG))
+                rig["lights"][0]["film"] = output
+                rig["lights"][0].pop("fps")
+                (self.at / "film.json").write_text(json.dumps(rig), encoding="utf-8")
+                told = subprocess.run([LATERNA, "info", str(SCENES / "stage.glb"), "--rig", str(self.at / "film.json"),
+                                       "--json"], capture_output=True, text=True, check=False)
+                self.assertEqual(told.returncode, 0, told.stderr)
+                self.assertGreater(json.loads(told.stdout)["pictures"][-1]["frames"], 0)
+                (self.at / output).unlink()
+
+    def bytes_written_to(self, output):
+        return sum(p.stat().st_size for p in self.at.iterdir() if p.name.startswith("." + output))
+
     def test_a_film_is_its_pictures(self):
         """Thrown as slides, a film's frames and the numbered pictures light the scene alike."""
         done = subprocess.run([LATERNA, "render", "--list-codecs"], capture_output=True, text=True, check=True)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "laterna/mirrors.h"
+#include "laterna/write_scene.h"
 #include "reference/shapes.h"
 #include "unit/gltf_builder.h"
 
@@ -51,6 +52,16 @@ const MirrorCase kMirrorCases[] = {
      "r.json: line 2: surfaces[0].mirror.ior: expected a number from 1 to 100, got 0.5"},
     {"WaveWithoutLength", R"({"mirror": {"waves": [{"direction": [1, 0, 0], "amplitude": 1}]}})",
      "r.json: line 2: surfaces[0].mirror.waves[0].length: is missing"},
+    {"VolumeWithoutIor", R"({"mirror": {"volume": {}}})",
+     "r.json: line 2: surfaces[0].mirror.volume: bends light by \"ior\", and there is none"},
+    {"VolumeOfWhatIsOpaque", R"({"material": "glass", "mirror": {"ior": 1.3, "volume": {}}})",
+     "r.json: line 2: surfaces[0].mirror.volume: is seen through surfaces that blend (alphaMode BLEND); this "
+     "material does not: \"glass\""},
+    {"VolumeColour", R"({"mirror": {"ior": 1.3, "volume": {"attenuation_color": [1, 2, 1]}}})",
+     "r.json: line 2: surfaces[0].mirror.volume.attenuation_color[1]: expected a number from 0 to 1, got 2"},
+    {"VolumeDistance", R"({"mirror": {"ior": 1.3, "volume": {"attenuation_distance": 0}}})",
+     "r.json: line 2: surfaces[0].mirror.volume.attenuation_distance: expected a number from 1e-06 to "
+     "3.4028234663852886e+38, got 0"},
     {"WaveToNowhere", R"({"mirror": {"waves": [{"direction": [0, 0, 0], "amplitude": 1, "length": 1}]}})",
      "r.json: line 2: surfaces[0].mirror.waves[0].direction: is the zero vector"},
 };
@@ -64,10 +75,89 @@ TEST(InvalidMirrors, MustBeFlat) {
       {.rigs = {folder.write("r.json", "{\"surfaces\": [\n{\"material\": \"glass\", \"mirror\": {}}]}")}});
   const Result<Renderer> renderer = Renderer::create(std::move(scene));
   ASSERT_FALSE(renderer);
-  EXPECT_EQ(messages_of(tl::unexpected(renderer.error()), folder.path()),
-            "r.json: line 2: surfaces[0].mirror: the mirror of object \"window\" is not flat: it leaves its "
-            "plane by "
-            "0.157 m, and is 1 m long; a mirror may by 0.001");
+  EXPECT_EQ(
+      messages_of(tl::unexpected(renderer.error()), folder.path()),
+      "r.json: line 2: surfaces[0].mirror: the mirror of object \"window\" is not flat: at (1, 0, 0) it "
+      "leaves its plane by 0.157 m, and is 1 m long, so that 0.001 m is the most; let its flat parts have a "
+      "material each, and curved ones mirror the environment");
+}
+
+// Each instance has a plane of its own; what is wrong with many is said once.
+TEST(InvalidMirrors, OfManyInstancesOneIsTold) {
+  Scene scene;
+  const int node = reference::add_object(scene, "ball", reference::sphere({0, 0, 0}, 1, 16));
+  scene.materials[0].mirror = std::make_shared<const Mirror>();
+  for (int i = 1; i < 4; ++i) {
+    scene.nodes.push_back(scene.nodes[static_cast<std::size_t>(node)]);
+    scene.nodes.back().name = "copy";
+  }
+  const Result<Renderer> renderer = Renderer::create(std::move(scene));
+  ASSERT_FALSE(renderer);
+  const std::string message = to_string(renderer.error());
+  EXPECT_EQ(message.find("the mirror of object \"ball\" is not flat: "), 0U) << message;
+  EXPECT_NE(message.find("; 3 more of its objects are no better"), std::string::npos) << message;
+}
+
+// LATERNA_mirror, in radians and glTF's spelling.
+GltfBuilder mirror_file(const json& extension) {
+  GltfBuilder builder;
+  builder.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  builder.add("materials",
+              {{"name", "pond"}, {"alphaMode", "BLEND"}, {"extensions", {{"LATERNA_mirror", extension}}}});
+  builder.add("meshes",
+              {{"primitives", json::array({{{"attributes", {{"POSITION", 0}}}, {"material", 0}}})}});
+  builder.add("nodes", {{"name", "pond"}, {"mesh", 0}});
+  return builder;
+}
+
+TEST(InvalidMirrors, FaultsOfAnExtensionHaveTheirPlace) {
+  const TemporaryFolder folder;
+  const auto messages = [&](const json& extension) {
+    return messages_of(load_scene({folder.write("s.gltf", mirror_file(extension).text())}, {}),
+                       folder.path());
+  };
+  const std::string at = "s.gltf: materials[0].extensions.LATERNA_mirror";
+  EXPECT_EQ(messages({{"ior", 0}}), at + ".ior: expected a number from 1 to 100, got 0");
+  EXPECT_EQ(messages({{"volume", json::object()}}),
+            at + ".volume: bends light by \"ior\", and there is none");
+  EXPECT_EQ(
+      messages({{"waves", {{{"direction", {1, 0, 0}}, {"length", 1}, {"amplitude", 1}, {"phase", 700}}}}}),
+      at + ".waves[0].phase: expected a number from -628.3185307179587 to 628.3185935498118, got 700");
+  EXPECT_EQ(messages({{"ior", 1.3}, {"volume", {{"attenuation_color", {1, 1, 1}}}}}),
+            at + ".volume.attenuation_color: a volume has no key \"attenuation_color\" (did you mean "
+                 "\"attenuationColor\"?)");
+  EXPECT_EQ(messages(7), at + ": expected an object, got 7");
+}
+
+TEST(Mirrors, ComeBackFromAFile) {
+  const TemporaryFolder folder;
+  Scene scene = load_or_fail({folder.write("s.gltf", mirror_file(json::object()).text())}, {});
+  EXPECT_FALSE(scene.materials[0].mirror->ior);
+  Mirror water;
+  water.reflectance = {0.9F, 0.8F, 1};
+  water.ior = 1.333F;
+  water.roughness = 0.1F;
+  water.waves = {{{0.1, 0, 1.0 / 3}, 0.7, 0.01, {}, 0}, {{1, 0, 0}, 0.3, 0.002, -0.25, 1.5}};
+  water.volume = {{0.1F, 0.5F, 0.7F}, 2.5F};
+  scene.materials[0].mirror = std::make_shared<const Mirror>(water);
+  const std::filesystem::path file = folder.path() / "a.glb";
+  ASSERT_TRUE(write_scene(scene, file));
+  const Scene read = load_or_fail({file}, {});
+  const Mirror& back = *read.materials.at(0).mirror;
+  EXPECT_EQ(back.reflectance, water.reflectance);
+  EXPECT_EQ(back.ior, water.ior);
+  EXPECT_EQ(back.roughness, water.roughness);
+  ASSERT_EQ(back.waves.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back.waves[i].direction_ws, water.waves[i].direction_ws);
+    EXPECT_EQ(back.waves[i].length, water.waves[i].length);
+    EXPECT_EQ(back.waves[i].amplitude, water.waves[i].amplitude);
+    EXPECT_EQ(back.waves[i].speed, water.waves[i].speed);
+    EXPECT_EQ(back.waves[i].phase, water.waves[i].phase);
+  }
+  EXPECT_EQ(back.volume->attenuation_color, water.volume->attenuation_color);
+  EXPECT_EQ(back.volume->attenuation_distance, water.volume->attenuation_distance);
+  EXPECT_NE(back.place.find("LATERNA_mirror"), std::string::npos);
 }
 
 TEST(InvalidMirrors, MadeInCodeAndTooDeep) {

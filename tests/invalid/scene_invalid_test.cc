@@ -98,6 +98,15 @@ const SceneCase kSceneCases[] = {
      "materials[0].base_color_texture.uv_set: expected 0 or 1, got 2"},
     {"TextureCoordinatesMissing", [](Scene& s) { primitive_of(s).uv[0].clear(); },
      "meshes[0].primitives[0].uv[0]: is empty, but materials[0] has a texture that uses it"},
+    {"LightMapWithoutFront", [](Scene& s) { s.materials[0].light_map.back.picture = 0; },
+     "materials[0].light_map.front: is not set, but the back is"},
+    {"LightMapInTwoPlaces",
+     [](Scene& s) {
+       s.materials[0].light_map.front.picture = s.materials[0].light_map.back.picture = 0;
+       s.materials[0].light_map.back.uv_set = 1;
+       primitive_of(s).uv[1] = primitive_of(s).uv[0];
+     },
+     "materials[0].light_map.back.uv_set: expected the front's, 0, got 1"},
     {"TextureTransform", [](Scene& s) { s.materials[0].base_color_texture.uv_from_mesh_uv[2] = kNan; },
      "materials[0].base_color_texture.uv_from_mesh_uv[2]: expected a finite number, got nan"},
     {"BaseColour", [](Scene& s) { s.materials[0].base_color.g = -0.5F; },

@@ -188,6 +188,74 @@ TEST(Mirrors, ShowNothingOfWhatStandsBehindThem) {
   EXPECT_EQ(at(image, "reflection.G", static_cast<int>(beyond.x), static_cast<int>(beyond.y)), 0);
 }
 
+// What hangs a hair's breadth before a mirror is seen in it, from behind: it is the mirror's own surface that is left out, not what
+// is near. So is what another surface of the same object shows.
+TEST(Mirrors, ShowWhatIsStuckToThem) {
+  const float gap = 1e-3F;  // of a mirror 8 m long: within what it may be off its plane
+  Scene scene = dark();
+  add_object(scene, "mirror", wall(4, 4, -2));
+  scene.meshes.back().primitives[0].positions[0].z += 3e-3F;
+  scene.materials.back().mirror = std::make_shared<const Mirror>();
+  // Half of it covers what it shows from the eye's side: seen is what it shows at the mirror's.
+  Mesher poster;
+  const float z = -2 + 4 * gap;
+  poster.quad({-0.5F, -0.5F, z}, {0.5F, -0.5F, z}, {0.5F, 0.5F, z}, {-0.5F, 0.5F, z});
+  add_glowing(scene, "poster", poster.primitive, {0, 1, 0});
+  scene.materials.back().double_sided = true;
+  const View view =
+      look({60, 0, -1.5}, {0, 0, -2}, 2, 1);  // glancing: of 8 mm between it and its image, some pixels
+  RenderSettings settings = test_settings(400, 400);
+  settings.layers = {Layer::light};
+  const LayeredImage image = render(make_renderer(std::move(scene)), view, settings);
+  int seen = 0;
+  for (const float value : values_of(image, "reflection.G")) seen += value > 0.5F ? 1 : 0;
+  EXPECT_GT(seen, 20);
+}
+
+// A mirror of several clusters that leaves its plane a little: none of it is in its own picture.
+TEST(Mirrors, DoNotSeeThemselves) {
+  Scene scene = dark();
+  Mesher mesh;
+  constexpr int kStrips = 200;
+  for (int i = 0; i < kStrips; ++i) {
+    const float x = -4 + 8.0F * static_cast<float>(i) / kStrips, width = 8.0F / kStrips;
+    const auto z = [](float at) { return -2 + 4e-3F * std::sin(at); };
+    mesh.quad({x, -4, z(x)}, {x + width, -4, z(x + width)}, {x + width, 4, z(x + width)}, {x, 4, z(x)});
+  }
+  add_object(scene, "mirror", mesh.primitive, glm::vec3(0, 0, 1));
+  scene.materials.back().unlit = true;
+  scene.materials.back().double_sided = true;
+  scene.materials.back().mirror = std::make_shared<const Mirror>();
+  scene.background = glm::vec3(1, 0, 0);
+  RenderSettings settings = test_settings(120, 120);
+  settings.layers = {Layer::light};
+  const LayeredImage image =
+      render(make_renderer(std::move(scene)), look({1, 0.5, 2}, {0, 0, -2}, 60, 1), settings);
+  for (const float value : values_of(image, "reflection.B")) ASSERT_EQ(value, 0);
+}
+
+// One mesh at two places: each instance mirrors in its own plane.
+TEST(Mirrors, OfOneMeshEachHaveTheirPlane) {
+  const auto make = [](float x) {
+    Scene scene = dark();
+    const int node = add_mirror(scene, 0.9F, 0);
+    scene.nodes.push_back(scene.nodes[static_cast<std::size_t>(node)]);
+    scene.nodes[static_cast<std::size_t>(node)].parent_from_node[3] = {-1, 0, -2, 1};
+    scene.nodes.back().parent_from_node[3] = {1, 0, -3, 1};
+    add_glowing(scene, "ball", sphere({x, 0.2F, 2}, 0.05F, 16));
+    return scene;
+  };
+  for (const auto& [x, plane] : {std::pair(-1.0F, -2.0), std::pair(1.0F, -3.0)}) {
+    const View view = look({x, 0, 3}, {x, 0, -2}, 60, 1);
+    const Renderer renderer = make_renderer(make(x));
+    RenderStatistics statistics;
+    const LayeredImage image = renderer.render(view, test_settings(240, 240), {}, &statistics).value();
+    EXPECT_EQ(statistics.mirror_pictures, 2);
+    const glm::dvec2 expected = pixel_of(view, {x, 0.2, 2 * plane - 2}, 240, 240);
+    EXPECT_GT(at(image, "R", static_cast<int>(expected.x), static_cast<int>(expected.y)), 0.9F) << plane;
+  }
+}
+
 // Fresnel's equations in the form with angles.
 double fresnel(double degrees, double ior) {
   const double i = degrees / 180 * std::acos(-1.0), t = std::asin(std::sin(i) / ior);
@@ -334,6 +402,30 @@ TEST(Mirrors, RoughOnesBlurByDistance) {
   for (const double t : {1.0, 6.0}) {
     const double expected = 1.374 * 2 * 0.04 * t / (8 + t) * pixels_per_tangent;
     EXPECT_NEAR(std::abs(rise_of(static_cast<float>(t))), expected, 0.12 * expected + 1) << t;
+  }
+}
+
+// Where rays go on in parallel, the blur grows by distance alone; how far the view reaches has no part in it.
+TEST(Mirrors, RoughOnesDoNotDependOnTheFarPlane) {
+  const auto picture = [](double far) {
+    Scene scene = dark();
+    Mirror rough;
+    rough.roughness = 0.3F;
+    add_mirror(scene, 20, 0, rough);
+    add_glowing(scene, "ball", sphere({0, 0, 2}, 1, 24));
+    View view = look({0, 0, 8}, {0, 0, 0}, 40, 1);
+    view.projection = Projection::orthographic(3, 3, 0.05, far);
+    return render(make_renderer(std::move(scene)), view, test_settings(96, 96));
+  };
+  const LayeredImage near = picture(50);
+  for (const double far : {1e3, 1e7}) {
+    const LayeredImage image = picture(far);
+    double difference = 0;
+    for (std::size_t i = 0; i < 96 * 96; ++i)
+      difference += std::abs(static_cast<double>(values_of(near, "R")[i]) -
+                             static_cast<double>(values_of(image, "R")[i]));
+    EXPECT_LT(difference / (96 * 96), far < 1e6 ? 1e-4 : 0.02)
+        << far;  // reversed depth of 1e7 m tells 1 m from the next
   }
 }
 

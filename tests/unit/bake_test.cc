@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "bake/atlas_packer.h"
 #include "bake/charts.h"
+#include "laterna/relief.h"
 #include "laterna/write_scene.h"
 #include "reference/shapes.h"
 #include "unit/temporary_folder.h"
@@ -339,6 +341,31 @@ TEST(Bake, RefusesWhatMakesNoSense) {
             "object \"floor\": a triangle of 5.65685 m takes more than a light map of 64 luxels: at most "
             "11.1369 luxels per "
             "metre fit, asked for were 16");
+}
+
+// As with any texture (the surface is drawn, and it is said): all of it takes one luxel.
+TEST(LightMapFiles, MeshesWithoutTheCoordinatesAreTold) {
+  const TemporaryFolder folder;
+  Scene scene = lit_shapes();
+  scene.materials[1].light_map.front.picture =
+      add_picture(scene, 2, 2, [](int x, int y) { return glm::u8vec3(x + y == 0 ? 255 : 0); });
+  scene.materials[1].light_map.front.uv_set = 1;
+  Primitive& floor = scene.meshes[1].primitives[0];
+  floor.uv[1] = floor.uv[0];
+  ASSERT_TRUE(write_scene(scene, folder.path() / "map.gltf"));
+  std::ifstream in(folder.path() / "map.gltf");
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  const std::string word = "\"TEXCOORD_1\"";
+  ASSERT_NE(text.find(word), std::string::npos);
+  text.replace(text.find(word), word.size(), "\"_UNUSED\"");
+  std::ofstream(folder.path() / "map.gltf") << text;
+  const Result<Scene> read = load_scene({folder.path() / "map.gltf"});
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->warnings.size(), 1U);
+  EXPECT_NE(to_string(read->warnings[0])
+                .find("material \"floor\" uses texture coordinates 1, which the mesh does not have"),
+            std::string::npos)
+      << to_string(read->warnings[0]);
 }
 
 TEST(LightMapFiles, FaultsAreNamedWithTheirPlaces) {

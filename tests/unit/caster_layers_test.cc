@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 #include <random>
 
@@ -127,6 +128,58 @@ TEST(CasterLayers, ASeriesIsThatOfFreshRenderersWithEveryTechnique) {
   backs.shadow.caster_faces = CasterFaces::back_only;
   backs.shadow.filter = ShadowFilter::percentage_closer;
   check(backs, {2, 5, 3});
+}
+
+// A caller's moves go the way that clips' do: with every picture that of a renderer to which nothing was known before.
+TEST(CasterLayers, OnlyWhatACallerMovesIsDrawnAgain) {
+  Hall h = hall();
+  h.scene.clips.clear();
+  const int cart = reference::add_object(h.scene, "cart", reference::box({0, 0.2F, 0}, {0.3F, 0.2F, 0.3F}));
+  const int load = reference::add_object(h.scene, "load", reference::box({0, 0.6F, 0}, {0.1F, 0.2F, 0.1F}));
+  h.scene.nodes[static_cast<std::size_t>(load)].parent = cart;
+  reference::add_light(h.scene, lamp("sees it", LightType::projector), {2, 5, 3}, {0, 0, 0});
+  reference::add_light(h.scene, lamp("does not", LightType::projector), {4, 3, -4}, {5, 0, -4});
+  reference::add_light(h.scene, lamp("rays", LightType::spot, ShadowTechnique::exact), {1, 5, 2}, {0, 0, 0});
+  Renderer renderer = Renderer::create(h.scene).value();
+  draw(renderer);
+  const Mesh& ball =
+      h.scene.meshes[static_cast<std::size_t>(h.scene.nodes[static_cast<std::size_t>(h.ball)].mesh)];
+  const std::size_t ball_triangles = ball.primitives[0].indices.size() / 3;
+  int step = 0;
+  for (const int node : {cart, h.ball, cart, cart, h.ball, load, cart}) {
+    SCOPED_TRACE(++step);
+    glm::dmat4 place = glm::translate(glm::dmat4(1), glm::dvec3(0.3 * step - 1, 0.1, 0.2));
+    if (step == 4) place = glm::scale(place, glm::dvec3(-1, 1, 1.5));  // turns triangles round
+    ASSERT_TRUE(renderer.set_transform(node, place));
+    h.scene.nodes[static_cast<std::size_t>(node)].parent_from_node = place;
+    const Drawn drawn = draw(renderer);
+    EXPECT_TRUE(same_bits(drawn.picture, draw(Renderer::create(h.scene).value()).picture));
+    EXPECT_EQ(drawn.statistics.maps_drawn, 1);
+    EXPECT_EQ(drawn.statistics.map_reuse.maps_updated, 1);
+    EXPECT_EQ(drawn.statistics.maps_kept, 1);
+    // A box has 12 triangles; cart and load move together.
+    if (step == 3) {
+      EXPECT_LE(drawn.statistics.map_reuse.moving_triangles, 24U + ball_triangles);
+    }
+  }
+  // What is refused changes nothing.
+  const Drawn before = draw(renderer);
+  EXPECT_FALSE(renderer.set_transform(cart, glm::translate(glm::dmat4(1), glm::dvec3(1e11, 0, 0))));
+  EXPECT_FALSE(renderer.set_transform(cart, glm::dmat4(0)));
+  EXPECT_TRUE(same_bits(draw(renderer).picture, before.picture));
+  // What clips move may be moved by callers besides.
+  move(h.scene, h.ball, {0, 1}, {-3, 0, 0, 3, 0, 0});
+  Renderer both = Renderer::create(h.scene).value();
+  draw(both);
+  ASSERT_TRUE(both.set_time(0.4));
+  const glm::dmat4 place = glm::translate(glm::dmat4(1), glm::dvec3(0.5, 0, 0.4));
+  ASSERT_TRUE(both.set_transform(cart, place));
+  draw(both);
+  ASSERT_TRUE(both.set_time(0.6));
+  h.scene.nodes[static_cast<std::size_t>(cart)].parent_from_node = place;
+  RendererOptions fresh;
+  fresh.time = 0.6;
+  EXPECT_TRUE(same_bits(draw(both).picture, draw(Renderer::create(h.scene, fresh).value()).picture));
 }
 
 // Once the ball has begun to roll, what stands is neither sorted nor drawn again, and a lamp that does not see the ball keeps

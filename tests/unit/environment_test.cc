@@ -176,6 +176,120 @@ TEST(EnvironmentFiles, GltfImageBasedLight) {
   }
 }
 
+// A sky that changes evenly from side to side, whose light is known in closed form: 0.5 + 0.4 d of red toward +X, green toward
+// +Y and blue toward +Z. A surface toward n gets π (0.5 + 0.4 · ⅔ n) of it.
+glm::dvec3 even_sky(const glm::dvec3& direction) { return 0.5 + 0.4 * glm::normalize(direction); }
+
+// EXT_lights_image_based has OpenGL's faces (OpenGL 4.6, table 8.19), each flipped about its vertical axis. (s, t) from the
+// picture's top left.
+glm::dvec3 direction_of_face(int face, double s, double t) {
+  const double sc = 1 - 2 * s, tc = 2 * t - 1;
+  const std::array<glm::dvec3, 6> directions = {
+      {{1, -tc, -sc}, {-1, -tc, sc}, {sc, 1, tc}, {sc, -1, -tc}, {sc, -tc, 1}, {-sc, -tc, -1}}};
+  return directions[static_cast<std::size_t>(face)];
+}
+
+// Its harmonics as the extension's source (Ramamoorthi & Hanrahan 2001) has them: E = Σ L_lm Y_lm of the normal, with
+// Y₀₀ = 0.282095 and Y₁₋₁, Y₁₀, Y₁₁ = 0.488603 (y, z, x).
+std::array<glm::dvec3, 9> even_sky_irradiance() {
+  const double pi = 3.14159265358979323846, mean = 0.5 * pi / 0.2820947918,
+               slope = 0.4 * 2 * pi / 3 / 0.4886025119;
+  return {glm::dvec3(mean), {0, slope, 0}, {0, 0, slope}, {slope, 0, 0}};
+}
+
+TEST(EnvironmentFiles, GltfFacesAndHarmonicsAreTheRightWayRound) {
+  constexpr int kSide = 32;
+  constexpr glm::vec3 kBox(5, 30, 20);  // where none of the directions below looks
+  const TemporaryFolder folder;
+  json document = json::parse(triangle_builder().text());
+  document["images"] = json::array();
+  for (int face = 0; face < 6; ++face) {
+    Image image(kSide, kSide, 3, PixelType::u8, Transfer::srgb);
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const glm::dvec3 light =
+          even_sky(direction_of_face(face, (i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide));
+      for (int k = 0; k < 3; ++k) {
+        const double c = light[k];  // above the curve's straight part
+        image.values<std::uint8_t>()[static_cast<std::size_t>(3 * i + k)] =
+            static_cast<std::uint8_t>(std::lround(255 * (1.055 * std::pow(c, 1 / 2.4) - 0.055)));
+      }
+    }
+    const std::string name = "face" + std::to_string(face) + ".png";
+    ASSERT_TRUE(write_image(image, folder / name).has_value());
+    document["images"].push_back({{"uri", name}});
+  }
+  json light = {{"specularImageSize", kSide},
+                {"specularImages", {{0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 4, 5}}},
+                {"irradianceCoefficients", json::array()}};
+  for (const glm::dvec3& c : even_sky_irradiance())
+    light["irradianceCoefficients"].push_back({c.x, c.y, c.z});
+  document["extensions"]["EXT_lights_image_based"]["lights"] = json::array({light});
+  document["extensionsUsed"] = {"EXT_lights_image_based"};
+  document["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+  Scene scene = load_or_fail({folder.write("ibl.gltf", document.dump())});
+  add_object(scene, "box", box(kBox, glm::vec3(0.5F)));
+  const Renderer renderer = make_renderer(scene);
+  RenderSettings settings = test_settings(9, 9);
+  settings.shading = ShadingModel::papers;
+  for (int i = 0; i < 27; ++i) {
+    const glm::dvec3 toward(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    if (toward == glm::dvec3(0)) continue;
+    const View view = look({0, 0, 9}, glm::dvec3(0, 0, 9) + toward, 10, 1, {0.1, 0.7, 0.6}, 2);
+    const LayeredImage image = render(renderer, view, settings);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(at(image, std::string(1, "RGB"[k]), 4, 4), even_sky(toward)[k], 0.01) << i << ' ' << k;
+  }
+  for (int face = 0; face < 6; ++face) {
+    const glm::dvec3 normal = direction_of_face(face, 0.5, 0.5);
+    const View view = look(glm::dvec3(kBox) + 3.0 * normal, kBox, 10, 1, {0.1, 0.7, 0.6}, 2);
+    const LayeredImage image = render(renderer, view, settings);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(at(image, std::string(1, "RGB"[k]), 4, 4), 0.5 + 0.4 * 2 / 3 * normal[k], 1e-4)
+          << face << ' ' << k;
+    }
+  }
+}
+
+TEST(EnvironmentFiles, GltfFacesAndHarmonicsAreWrittenTheRightWayRound) {
+  constexpr int kWidth = 128;
+  auto sky = std::make_shared<Image>(kWidth, kWidth / 2, 3, PixelType::f32, Transfer::linear);
+  for (int i = 0; i < kWidth * kWidth / 2; ++i) {
+    // Its middle looks along −Z, and to the right is +X.
+    const double azimuth = ((i % kWidth + 0.5) / kWidth - 0.5) * 2 * 3.14159265358979323846;
+    const double height = (0.5 - (i / kWidth + 0.5) / (kWidth / 2)) * 3.14159265358979323846;
+    const glm::dvec3 light = even_sky(
+        {std::sin(azimuth) * std::cos(height), std::sin(height), -std::cos(azimuth) * std::cos(height)});
+    for (int k = 0; k < 3; ++k)
+      sky->values<float>()[static_cast<std::size_t>(3 * i + k)] = static_cast<float>(light[k]);
+  }
+  Scene scene;
+  add_object(scene, "box", box({0, 0, 0}, glm::vec3(0.5F)));
+  scene.pictures.push_back({});
+  scene.pictures.back().pixels = sky;
+  scene.environment.emplace();
+  scene.environment->picture = 0;
+  ASSERT_TRUE(filter_environment(scene, {32}).has_value());
+  const std::array<glm::dvec3, 9> expected = even_sky_irradiance();
+  for (std::size_t i = 0; i < 9; ++i) {
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR((*scene.environment->irradiance)[i][k], expected[i][k], 0.01) << i << ' ' << k;
+  }
+  for (int face = 0; face < 6; ++face) {
+    const int picture = scene.environment->specular_pictures[0][static_cast<std::size_t>(face)];
+    const Image& image = *scene.pictures[static_cast<std::size_t>(picture)].pixels;
+    for (const int x : {1, 30}) {
+      for (const int y : {1, 30}) {
+        const glm::dvec3 light = even_sky(direction_of_face(face, (x + 0.5) / 32, (y + 0.5) / 32));
+        for (int k = 0; k < 3; ++k) {
+          const double c = image.value(x, y, k);
+          const double linear = std::pow((c + 0.055) / 1.055, 2.4) / image.value(x, y, 3);
+          EXPECT_NEAR(linear, light[k], 0.01) << face << ' ' << x << ' ' << y << ' ' << k;
+        }
+      }
+    }
+  }
+}
+
 // Written as EXT_lights_image_based and read back, balls of three roughnesses look as they did: directions, brightness far
 // above white, the turn and the harmonics' signs. What is left are faces of 8 bits.
 TEST(EnvironmentFiles, GltfImageBasedLightIsWritten) {

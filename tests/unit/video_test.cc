@@ -211,6 +211,18 @@ TEST_F(VideoFile, TenBits) {
   }
 }
 
+// Cameras and encoders with threads write frames as several slices: they are whole.
+TEST_F(VideoFile, FramesOfSeveralSlices) {
+  const auto film = open("slices.mp4");
+  ASSERT_NE(film, nullptr);
+  ASSERT_EQ(film->header().frames, 3U);
+  for (const std::size_t k : {0, 2, 1}) {
+    const Result<Image> image = film->read(k);
+    ASSERT_TRUE(image) << to_string(image.error());
+    EXPECT_EQ(image->width(), 64);
+  }
+}
+
 TEST_F(VideoFile, DoctorNamesTheLibraries) {
   EXPECT_NE(video_support().description.find("libavcodec "), std::string::npos);
 }

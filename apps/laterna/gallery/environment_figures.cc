@@ -1,6 +1,7 @@
 // The lecture's environment and specular maps, re-made.
 #include <algorithm>
 
+#include "highlight_figure.h"
 #include "laterna/environment.h"
 #include "laterna/environment_probe.h"
 #include "sitting.h"
@@ -156,6 +157,15 @@ constexpr Figure kFigures[] = {
      "highlights: lights with a size, through a filtered map.",
      "Balls do not see each other, and nothing shades the sky.",
      "laterna render scene.glb --environment sky.hdr", draw_specular},
+    {"highlights", "Per vertex, per pixel, by a map", "Slides on specular maps",
+     "A corner that the highlight meets spreads it over all triangles around it; of one that falls between "
+     "corners "
+     "hardly anything is left. At pixels it has the shape that the normals give it, and a map takes the "
+     "lamp's size along.",
+     "The engine lights pixels alone: the corners' light was worked out by it on a facet for each corner, "
+     "and became the "
+     "colours of the first ball's corners.",
+     "laterna render scene.glb --environment sky.hdr", draw_highlights},
     {"parallax", "Same point, same distance", "The slide's assumption, and what a box makes of it",
      "A mirror ball away from the middle of a room, lit by what the middle sees.",
      "A box is right for walls alone: furniture would be mirrored as if it were painted on them.",
