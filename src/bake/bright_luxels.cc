@@ -26,7 +26,7 @@ constexpr float kMostRays = 64;
 // Boxes that are summed one by one, those that bring most first: where much is bright there would be thousands. What remains
 // is sampled.
 constexpr std::size_t kMostBoxes = 128;
-constexpr float kLeastSample = 2;
+constexpr float kSampleRays = 64;
 
 float strongest(const glm::vec3& light) { return std::max(light.x, std::max(light.y, light.z)); }
 
@@ -169,12 +169,17 @@ void BrightLuxels::add(Sum& sum, const Shine& shine, Seen seen) const {
   sum.irradiance += unshadowed * (arrived / static_cast<float>(rays));
 }
 
-// A sample of a node's luxels, each with the form factor of its own.
-void BrightLuxels::add_sample(Sum& sum, std::uint32_t node) const {
+// Of each box some luxels, each with the form factor of its own; the more, the more it may bring.
+void BrightLuxels::add_samples(Sum& sum, std::span<const std::pair<float, std::uint32_t>> boxes) const {
+  float all = 0;
+  for (const auto& [bound, node] : boxes) all += bound;
+  for (const auto& [bound, node] : boxes)
+    add_sample(sum, node, static_cast<int>(std::ceil(kSampleRays * bound / all)));
+}
+
+void BrightLuxels::add_sample(Sum& sum, std::uint32_t node, int rays) const {
   const Luxel& receiver = tree_.luxels()[sum.receiver];
   const Shine& shine = shine_[node];
-  const float wanted = std::ceil(bound_at(sum.receiver, node) / most_even_ * kRaysForEven);
-  const int rays = static_cast<int>(std::clamp(wanted, kLeastSample, kMostRays));
   glm::vec3 arrived(0);
   for (int ray = 0; ray < rays; ++ray) {
     const std::uint32_t place = pick(node, (ray + shift_of(sum.receiver).u) / rays);
@@ -230,13 +235,14 @@ glm::vec3 BrightLuxels::irradiance_at(std::uint32_t receiver, const LuxelRays& r
         ++taken;
       }
     } else if (taken + open.size() >= kMostBoxes) {
-      add_sample(sum, index);
-      ++taken;
+      open.emplace_back(bound_at(receiver, index), index);
+      break;
     } else {
       push(index + 1);
       push(node.second);
     }
   }
+  add_samples(sum, open);
   return sum.irradiance;
 }
 

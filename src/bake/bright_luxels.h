@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bake/luxel_rays.h"
@@ -51,7 +52,8 @@ class BrightLuxels {
   [[nodiscard]] Shine shine_below(std::uint32_t node) const;
   template <class Seen>
   void add(Sum& sum, const Shine& shine, Seen seen) const;
-  void add_sample(Sum& sum, std::uint32_t node) const;
+  void add_samples(Sum& sum, std::span<const std::pair<float, std::uint32_t>> boxes) const;
+  void add_sample(Sum& sum, std::uint32_t node, int rays) const;
   // More than a node can bring, all channels together.
   [[nodiscard]] float bound_at(std::uint32_t receiver, std::uint32_t node) const;
   [[nodiscard]] bool can_be_one(const Sum& sum, std::uint32_t node) const;

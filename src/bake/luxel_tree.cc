@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 
 namespace laterna::bake {
@@ -26,9 +27,27 @@ struct Extent {
   }
 };
 
-float squared_distance_to(const LuxelNode& node, const glm::vec3& point) {
-  const glm::vec3 outside = glm::max(glm::max(node.low_ws - point, point - node.high_ws), glm::vec3(0));
-  return glm::dot(outside, outside);
+// The end of a box that is farthest along a direction.
+glm::vec3 farthest_along(const glm::vec3& direction, const glm::vec3& low, const glm::vec3& high) {
+  return glm::mix(low, high, glm::greaterThan(direction, glm::vec3(0)));
+}
+
+// No luxel of the box has less of LuxelTree::squared_distance().
+float least_squared_distance(const LuxelNode& node, const MetSurface& met) {
+  const glm::vec3 outside =
+      glm::max(glm::max(node.low_ws - met.position_ws, met.position_ws - node.high_ws), glm::vec3(0));
+  const glm::vec3& n = met.normal_ws;
+  const float above = glm::dot(farthest_along(-n, node.low_ws, node.high_ws) - met.position_ws, n);
+  const float below = -glm::dot(farthest_along(n, node.low_ws, node.high_ws) - met.position_ws, n);
+  const float off_surface = std::max(0.0F, std::max(above, below));
+  // Short of it by more than roundings.
+  return 0.9999F * (glm::dot(outside, outside) + kOffSurface * off_surface * off_surface);
+}
+
+// Whether one of its luxels may face as a surface does.
+bool may_agree(const LuxelNode& node, const MetSurface& met) {
+  return glm::dot(farthest_along(met.normal_ws, node.low_normal, node.high_normal), met.normal_ws) >=
+         0.9999F * kLeastAgreement;
 }
 
 // Of six axes, three of position and three of normal, the one along which luxels differ most. Normals count half the box's
@@ -59,7 +78,6 @@ LuxelTree::LuxelTree(const frame::Frame& frame, std::span<const Luxel> luxels)
     const std::uint32_t object = object_at(place);
     areas[object] += static_cast<double>(luxels_[place].area);
     ++counts[object];
-    largest_area_ = std::max(largest_area_, luxels_[place].area);
   }
   mean_areas_.resize(areas.size());
   for (std::size_t object = 0; object < areas.size(); ++object) {
@@ -73,11 +91,13 @@ void LuxelTree::split(std::uint32_t first, std::uint32_t last) {
   const std::size_t index = nodes_.size();
   Extent positions;
   Extent normals;
+  float largest = 0;
   for (std::uint32_t i = first; i < last; ++i) {
     positions.add(luxels_[order_[i]].position_ws);
     normals.add(luxels_[order_[i]].normal_ws);
+    largest = std::max(largest, luxels_[order_[i]].area);
   }
-  nodes_.push_back({positions.low, positions.high, first, last, 0});
+  nodes_.push_back({positions.low, positions.high, first, last, 0, largest, normals.low, normals.high});
   if (last - first <= kLeafSize) return;
   const int axis = longest_axis(positions, normals);
   const std::uint32_t middle = first + (last - first) / 2;
@@ -101,7 +121,7 @@ float LuxelTree::squared_distance(const MetSurface& met, std::uint32_t place) co
 std::optional<std::uint32_t> LuxelTree::find(const MetSurface& met) const {
   const float mean_area = mean_areas_[met.object];
   if (!(mean_area > 0)) return std::nullopt;
-  float nearest = kReach * kReach * largest_area_;
+  float nearest = std::numeric_limits<float>::infinity();
   std::optional<std::uint32_t> found;
   const auto look_into = [&](const LuxelNode& leaf) {
     for (std::uint32_t place = leaf.first; place < leaf.last; ++place) {
@@ -120,17 +140,20 @@ std::optional<std::uint32_t> LuxelTree::find(const MetSurface& met) const {
   };
   std::array<Open, 64> open;  // a balanced tree of 2³¹ luxels is 29 deep
   std::size_t count = 0;
-  open[count++] = {0, squared_distance_to(nodes_[0], met.position_ws)};
+  open[count++] = {0, least_squared_distance(nodes_[0], met)};
   while (count > 0) {
     const auto [index, distance] = open[--count];
-    if (distance >= nearest) continue;
     const LuxelNode& node = nodes_[index];
+    // A single large luxel far off must not make all others be looked at.
+    if (distance >= nearest || distance > kReach * kReach * std::max(mean_area, node.largest_area) ||
+        !may_agree(node, met))
+      continue;
     if (node.is_leaf()) {
       look_into(node);
       continue;
     }
-    const Open one = {index + 1, squared_distance_to(nodes_[index + 1], met.position_ws)};
-    const Open other = {node.second, squared_distance_to(nodes_[node.second], met.position_ws)};
+    const Open one = {index + 1, least_squared_distance(nodes_[index + 1], met)};
+    const Open other = {node.second, least_squared_distance(nodes_[node.second], met)};
     const bool one_is_nearer = one.distance <= other.distance;
     open[count++] = one_is_nearer ? other : one;
     open[count++] = one_is_nearer ? one : other;

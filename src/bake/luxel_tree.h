@@ -18,6 +18,8 @@ struct LuxelNode {
   glm::vec3 low_ws, high_ws;  ///< of the positions
   std::uint32_t first = 0, last = 0;
   std::uint32_t second = 0;
+  float largest_area = 0;                   ///< of the luxels
+  glm::vec3 low_normal{0}, high_normal{0};  ///< of their normals, coordinate by coordinate
   [[nodiscard]] bool is_leaf() const { return second == 0; }
 };
 
@@ -62,7 +64,6 @@ class LuxelTree {
   std::vector<std::uint32_t> order_;
   std::vector<LuxelNode> nodes_;
   std::vector<float> mean_areas_;  // by object
-  float largest_area_ = 0;
 };
 
 }  // namespace laterna::bake
