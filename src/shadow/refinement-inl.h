@@ -433,8 +433,9 @@ HWY_INLINE Blocking TestSuspects(const ShadowMapTest& test, const BoundDepthMap&
   return blocking;
 }
 
-// α of the pixel from its places'. A side that the light does not fall on goes by the centre alone: what darkens it is the
-// body whose side it is, and where its triangles are smaller than the pixel, the places on their planes lie outside that.
+// α of the pixel from its places'. A side that the light does not fall on is darkened by the body whose side it is. Where
+// that is finely cut, rays from other places leave it through triangles that the centre's walk has not met: where its
+// centre is dark, such a side is.
 HWY_INLINE FloatVector MeanArrival(const Blocking& blocking, FloatMask faces_light, int count) {
   const auto one = Splat(1.0F);
   const auto lit = one - blocking.dark;
@@ -451,7 +452,7 @@ HWY_INLINE FloatVector MeanArrival(const Blocking& blocking, FloatMask faces_lig
   }
   const auto mean =
       hn::IfThenElse(is_lit, hn::Max(sum * share, majority), hn::Min(sum * share, one - majority));
-  return hn::IfThenElse(faces_light, mean, centre);
+  return hn::IfThenElse(hn::Or(faces_light, is_lit), mean, centre);
 }
 
 // How the light of a map falls on surfaces.
