@@ -1,6 +1,7 @@
 // MIT 6.837, lecture 20: slides as light and as paint, slides that meet, and textures that lie on one another.
 #include <fmt/format.h>
 
+#include "baking_figures.h"
 #include "laterna/blend.h"
 #include "paintings.h"
 #include "sets.h"
@@ -214,6 +215,13 @@ constexpr Figure kFigures[] = {
      "\"surfaces\": [{\"material\": \"board\", \"layers\": [{\"texture\": \"coat.png\", \"blend\": "
      "\"screen\"}]}]",
      draw_blend_modes},
+    {"quake", "Textures, light maps, and both", "Slides 18 to 20: light maps in Quake",
+     "A texture repeats over every wall, and one coarse map of light, seen once only, lies over all of it.",
+     "Shadows are as coarse as the map, and a byte has 256 steps.",
+     "laterna bake scene.glb -o baked.glb --density 4 --quake quake.png", draw_quake},
+    {"baked", "Baked, and live", "Slides 18 to 20: light maps", "The same picture, at no cost for lamps.",
+     "Highlights, and what moves, are not in it.",
+     "laterna bake scene.glb --rig lamps.json -o baked.glb --density 96", draw_baked},
 };
 
 }  // namespace
