@@ -243,7 +243,8 @@ class TileShader::Worker {
 
   // A pixel of the tile, at the sample that is being shaded.
   [[nodiscard]] MirrorSample mirror_sample(std::uint32_t pixel, float q) const {
-    const std::uint32_t block = pixel / kGroupSize, within = pixel % kGroupSize;
+    constexpr auto kBlock = static_cast<std::uint32_t>(kGroupSize);
+    const std::uint32_t block = pixel / kBlock, within = pixel % kBlock;
     const auto x = static_cast<int>(block % raster::kBlocksPerSide * raster::kBlockSide + (within & 3U));
     const auto y = static_cast<int>(block / raster::kBlocksPerSide * raster::kBlockSide + (within >> 2U));
     const TileOrigin from = origin();
