@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -57,6 +59,17 @@ int add_numbers(Document& document, const std::vector<double>& values, std::stri
   const std::vector<float> floats(values.begin(), values.end());
   return document.add_accessor(std::as_bytes(std::span(floats)), Document::Target::none, kFloat, type,
                                floats.size() / components);
+}
+
+// Never later than they are: at the very instant of a cut, a film's frame shows what comes after it.
+std::vector<double> as_early_floats(const std::vector<double>& times) {
+  std::vector<double> floats;
+  for (const double time : times) {
+    const auto nearest = static_cast<float>(time);
+    floats.push_back(nearest > time ? std::nextafter(nearest, -std::numeric_limits<float>::infinity())
+                                    : nearest);
+  }
+  return floats;
 }
 
 // The way of a gaze, for those who do not know of gazes.
@@ -171,10 +184,11 @@ class ClipWriter {
   int add_sampler(const KeyFrames& keys, P property) {
     const auto [times, is_new] = inputs_.try_emplace(keys.times, 0);
     if (is_new) {
-      times->second = add_numbers(document_, keys.times, "SCALAR", 1);
+      const std::vector<double> floats = as_early_floats(keys.times);
+      times->second = add_numbers(document_, floats, "SCALAR", 1);
       Json& accessor = document_.at("accessors", times->second);
-      accessor["min"] = Json::array({shortest(static_cast<float>(keys.times.front()))});
-      accessor["max"] = Json::array({shortest(static_cast<float>(keys.times.back()))});
+      accessor["min"] = Json::array({shortest(static_cast<float>(floats.front()))});
+      accessor["max"] = Json::array({shortest(static_cast<float>(floats.back()))});
     }
     const std::string_view type = type_of(property);
     const int output =

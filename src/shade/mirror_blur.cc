@@ -34,7 +34,8 @@ const std::array<glm::vec2, kRays>& rays_of_cone() {
 // it stands before is the sharper.
 glm::vec3 blurred(const MirrorPicture& picture, const raster::RasterView& view, float spread, float distance,
                   float x, float y) {
-  constexpr int kSteps = 7;
+  constexpr int kSteps = 7, kHalvings = 6;
+  constexpr float kLeap = 2;  // of radii, in pixels: nothing that one would see
   const Projection& p = view.view.projection;
   const auto pixels_per_tangent = static_cast<float>(view.width / (p.right - p.left));
   // In an orthographic view circles grow without end; where nothing is, they are as large as at the farthest that there is.
@@ -52,25 +53,39 @@ glm::vec3 blurred(const MirrorPicture& picture, const raster::RasterView& view, 
   const auto look = [&](const glm::vec2& ray, float radius) {
     return picture.nearest(x + ray.x * radius, y + ray.y * radius);
   };
-  // Where the ray is as deep as what was seen, is that still there?
-  const auto meets = [&](const glm::vec2& ray, float own) {
-    return std::abs(radius_of(look(ray, own)) - own) <= 0.1F * own + 0.01F;
+  // Between a radius at which the ray is in the open and one at which it is not, the one at which it meets what lies there;
+  // less than nothing where depths leap: what lies behind that, the picture does not see.
+  const auto meeting = [&](const glm::vec2& ray, float open, float behind) {
+    float own_open = radius_of(look(ray, open)), own_behind = radius_of(look(ray, behind));
+    for (int halving = 0; halving < kHalvings && behind - open > 0.1F; ++halving) {
+      const float middle = (open + behind) / 2, own = radius_of(look(ray, middle));
+      (own > middle ? open : behind) = middle;
+      (own > middle ? own_open : own_behind) = own;
+    }
+    return own_open - own_behind <= kLeap + 0.1F * behind ? std::clamp(own_behind, open, behind) : -1.0F;
   };
+  // At a contact the rays of one side meet something sooner than the first step is long, and leave the picture beyond it.
+  const float at_once = radius_of(picture.nearest(x, y));
+  const int first_step = at_once < widest / (kSteps * kSteps) ? 0 : 1;
   glm::vec3 sum(0);
   for (const glm::vec2& ray : rays_of_cone()) {
     glm::vec4 seen = look(ray, 0);  // where the ray was last in the open
-    for (int step = 1; step <= kSteps; ++step) {
-      const float share = static_cast<float>(step) / kSteps, radius = widest * share * share;
+    float open = 0;
+    for (int step = first_step; step <= kSteps; ++step) {
+      const float share = static_cast<float>(step) / kSteps,
+                  radius = step == 0 ? at_once : widest * share * share;
       const glm::vec4 tap = look(ray, radius);
-      const float before = radius_of(seen), own = radius_of(tap);
-      const bool meets_before = before <= radius && meets(ray, before);
-      if (!meets_before && own > radius) {
+      // What the ray was before may end between two steps, and be met before that.
+      const float before = radius_of(seen);
+      const bool meets_before =
+          before <= radius && std::abs(radius_of(look(ray, before)) - before) <= 0.1F * before + 0.01F;
+      if (!meets_before && radius_of(tap) > radius) {
         seen = tap;
+        open = radius;
         continue;
       }
-      // Behind what lies here, without having met it: where the picture does not look.
-      if (!meets_before && !meets(ray, own)) continue;
-      const float met = meets_before ? before : own;
+      const float met = meets_before ? before : meeting(ray, open, radius);
+      if (met < 0) continue;
       // Its colour from about what lies between the rays.
       const int level = picture.level_of(met / kRaysAcross);
       seen = level == 0 ? look(ray, met) : picture.interpolated(x + ray.x * met, y + ray.y * met, level);
