@@ -32,7 +32,8 @@ constexpr NamedProperty kOfLight[] = {{"color", P::light_color},
                                       {"extensions/LATERNA_projector/aspectRatio", P::aspect},
                                       {"extensions/LATERNA_projector/znear", P::near},
                                       {"extensions/LATERNA_projector/zfar", P::far},
-                                      {"extensions/LATERNA_projector/luminousFlux", P::lumens}};
+                                      {"extensions/LATERNA_projector/luminousFlux", P::lumens},
+                                      {kFluxOfOtherLights, P::lumens}};
 constexpr NamedProperty kOfMaterial[] = {
     {"pbrMetallicRoughness/baseColorFactor", P::base_color},
     {"pbrMetallicRoughness/metallicFactor", P::metallic},

@@ -24,6 +24,9 @@ std::optional<NamedProperty> find_property(AnimatedKind kind, std::string_view p
 /// The path to a property; empty: there is none. `texture` as in ClipChannel; `is_orthographic`: of cameras.
 std::string property_path(AnimatedKind kind, AnimatedProperty property, int texture, bool is_orthographic);
 
+/// Where lights that are no projectors keep their lumens; projectors, in LATERNA_projector, as property_path() has it.
+inline constexpr std::string_view kFluxOfOtherLights = "extensions/LATERNA_lighting/luminousFlux";
+
 /// Textures of glTF's own; those of lobes follow.
 inline constexpr std::size_t kPlainTextures = 5;
 /// A material's texture by its number, as it is reached from the material.

@@ -161,7 +161,9 @@ class ClipWriter {
   [[nodiscard]] std::string pointer_to(const ClipChannel& channel) const {
     const auto target = static_cast<std::size_t>(channel.target);
     const auto below = [&](std::string_view list, int index, AnimatedKind kind, bool is_orthographic) {
-      const std::string path = property_path(kind, channel.property, channel.texture, is_orthographic);
+      std::string path = property_path(kind, channel.property, channel.texture, is_orthographic);
+      if (channel.property == P::lumens && scene_.lights[target].type != LightType::projector)
+        path = kFluxOfOtherLights;
       return index < 0 || path.empty() ? std::string() : fmt::format("/{}/{}/{}", list, index, path);
     };
     if (channel.property == P::look_at) return below("nodes", channel.target, AnimatedKind::node, false);

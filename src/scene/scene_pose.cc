@@ -22,7 +22,6 @@ bool changes_light(const ClipChannel& channel) {
   return channel.of_light || (channel.property >= AnimatedProperty::light_color &&
                               channel.property <= AnimatedProperty::outer_cone);
 }
-bool changes_material(AnimatedProperty property) { return property >= AnimatedProperty::base_color; }
 
 glm::dvec3 vector_of(std::span<const double> v) { return {v[0], v[1], v[2]}; }
 
@@ -247,6 +246,8 @@ void take_along(const Scene& scene, std::vector<bool>& moves) {
 }
 
 }  // namespace
+
+bool changes_material(AnimatedProperty property) { return property >= AnimatedProperty::base_color; }
 
 Transform parts_of(const glm::dmat4& parent_from_node) {
   Transform parts;

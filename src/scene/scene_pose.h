@@ -12,6 +12,9 @@ namespace laterna {
 /// What a matrix without shear is made of; of others, the nearest by its columns.
 Transform parts_of(const glm::dmat4& parent_from_node);
 
+/// Whether a channel's target is a material.
+bool changes_material(AnimatedProperty property);
+
 /// Which nodes stand elsewhere at another time, or change their shape: those that clips which play move, all below them, and
 /// those whose skins hang on such nodes. Empty where nothing moves.
 std::vector<bool> moving_nodes(const Scene& scene);

@@ -10,6 +10,7 @@
 
 #include "scene/mirror_settings.h"
 #include "scene/node_selection.h"
+#include "scene/scene_pose.h"
 #include "scene/spelling.h"
 
 namespace laterna {
@@ -156,14 +157,29 @@ class SurfaceLayering {
         int& material = primitive.material;
         if (of_others.contains(material)) {
           const auto [copy, is_new] = copies.try_emplace(material, 0);
-          if (is_new)
+          if (is_new) {
             copy->second = add_material(material < 0 ? Material() : Material(material_at(material)));
+            animate_copy(material, copy->second);
+          }
           material = copy->second;
         }
         taken.insert(material);
       }
     }
     return taken;
+  }
+
+  // What clips do to a material they do to its copy.
+  void animate_copy(int original, int copy) {
+    for (Clip& clip : scene_.clips) {
+      std::vector<ClipChannel> copies;
+      for (ClipChannel channel : clip.channels) {
+        if (!changes_material(channel.property) || channel.target != original) continue;
+        channel.target = copy;
+        copies.push_back(channel);
+      }
+      clip.channels.insert(clip.channels.end(), copies.begin(), copies.end());
+    }
   }
 
   void lay(const std::vector<SurfaceLayer>& layers, int index) {

@@ -182,6 +182,53 @@ TEST(WriteAnimation, EverythingIsWhereItWas) {
   }
 }
 
+// Single precision holds no twenty-fourth of a second: the cut must not come after it.
+TEST(WriteAnimation, CutsFallOnTheirFrames) {
+  const TemporaryFolder folder;
+  folder.write("rig.json",
+               std::string_view(R"({"lights": [{"name": "spot", "type": "spot", "position": [0, 2, 0],
+    "target": [0, 0, 0], "lumens": 500, "path": {"interpolation": "step", "keys": [
+    {"time": 0, "lumens": 500}, {"time": 0.041666666666666664, "lumens": 20}]}}]})"));
+  const Scene scene = load_scene(std::vector<std::filesystem::path>{folder / "rig.json"}).value();
+  const Scene again = carried(scene, folder / "a.gltf");
+  for (const double time : {0.0, 0.04, 1.0 / 24, 0.05})
+    EXPECT_EQ(
+        fmt::format("{}", fmt::join(reference::differences(posed(scene, time), posed(again, time)), "\n")),
+        "")
+        << time;
+  // What is animated is in the file.
+  const auto file = nlohmann::json::parse(std::ifstream(folder / "a.gltf"));
+  const auto pointer =
+      file["animations"][0]["channels"][0]["target"]["extensions"]["KHR_animation_pointer"]["pointer"];
+  EXPECT_EQ(file.at(nlohmann::json::json_pointer(pointer.get<std::string>())), 500);
+}
+
+// What is done to one node's surface leaves the clips of a material that others share.
+TEST(WriteAnimation, CopiesOfMaterialsAreAnimatedToo) {
+  const TemporaryFolder folder;
+  Scene scene;
+  scene.materials.emplace_back();
+  Primitive flat = ribbon();
+  flat.positions[2] = {0, 1, 0};
+  scene.meshes = {{"flat", {flat}}};
+  for (const char* name : {"one", "other"}) {
+    Node node;
+    node.name = name;
+    node.mesh = 0;
+    scene.nodes.push_back(node);
+  }
+  Clip clip;
+  add_channel(clip, P::metallic, 0, {KeyInterpolation::linear, {0, 1}, {0, 1}});
+  scene.clips = {clip};
+  carried(scene, folder / "a.gltf");
+  folder.write("rig.json", std::string_view(R"({"surfaces": [{"node": "one", "mirror": {}}]})"));
+  const Result<Scene> read = load_scene({folder / "a.gltf", folder / "rig.json"});
+  ASSERT_TRUE(read) << to_string(read.error());
+  const Scene half = posed(*read, 0.5);
+  ASSERT_EQ(half.materials.size(), 2U);
+  for (const Material& material : half.materials) EXPECT_FLOAT_EQ(material.metallic, 0.5F);
+}
+
 // A rig's paths lead gazes, which glTF has not: others get places and turns on the way.
 TEST(WriteAnimation, GazesAreThereForOthersToo) {
   const TemporaryFolder folder;
