@@ -221,7 +221,7 @@ Result<AccuracyReport> measure_all(const Renderer& renderer, const View& view, A
   settings.lights = std::move(*lights);
   Scene scene = renderer.scene();
   scene.warnings.clear();
-  scene.clips.clear();  // it is posed as it is measured
+  scene.clips.clear();        // it is posed as it is measured
   scene.environment.reset();  // shadows are of lights
   for (Light& light : scene.lights) {
     if (settings.resolution > 0) light.shadow.resolution = settings.resolution;

@@ -274,8 +274,9 @@ TEST(GltfMaterials, UnknownExtensionsAreSilentUnlessTheyChangeTheLook) {
   const TemporaryFolder folder;
   GltfBuilder builder = surface_builder(json::object());
   builder.document["extensionsUsed"] = {"ACME_harmless", "KHR_materials_dispersion"};
-  EXPECT_EQ(warnings_of(builder.load(folder)),
-            "extensionsUsed[1]: KHR_materials_dispersion is not fully supported: glass has no colour fringes\n");
+  EXPECT_EQ(
+      warnings_of(builder.load(folder)),
+      "extensionsUsed[1]: KHR_materials_dispersion is not fully supported: glass has no colour fringes\n");
 }
 
 TEST(GltfMaterials, TexturesWithoutAReadableSourceAreLeftOut) {

@@ -259,8 +259,8 @@ Scene full_scene() {
   node.mesh = 0;
   node.casts_shadow = node.receives_shadow = node.visible = false;
   node.node_from_instance = {
-      to_matrix({{1, 2, 3}, *normalized_rotation(glm::dvec4(glm::vec4(0.5F, 0.1F, -0.7F, 0.5F))),
-                 {1, 2, 0.5}}),
+      to_matrix(
+          {{1, 2, 3}, *normalized_rotation(glm::dvec4(glm::vec4(0.5F, 0.1F, -0.7F, 0.5F))), {1, 2, 0.5}}),
       glm::dmat4(1.0)};
   scene.nodes.push_back(node);
   node = {};
