@@ -137,7 +137,8 @@ int run_environment(const Options& options) {
   const bool is_of_scene = !options.scene.files.empty();
   std::string output = options.output;
   if (is_of_scene && output.empty()) output = options.input;
-  if (output.empty()) return report(bad_option("expected a picture to read and one to write"));
+  if (output.empty())
+    return report(bad_option("expected a picture to read and one to write: laterna environment IN OUT"));
   if (Result<void> writable = check_image_output(output); !writable) return report(writable.error());
   const Result<Source> source = is_of_scene ? draw_source(options) : read_source(options);
   if (!source) return report(source.error());

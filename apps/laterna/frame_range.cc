@@ -87,7 +87,7 @@ Result<std::vector<TimedOutput>> FrameOptions::outputs(double time, const std::s
   if (!rate) return tl::unexpected(rate.error());
   std::optional<NumberedName> name;
   if (!is_video_output(output)) {
-    Result<NumberedName> parsed = NumberedName::parse("--frames", output);
+    Result<NumberedName> parsed = NumberedName::parse("--frames", output, true);
     if (!parsed) return tl::unexpected(parsed.error());
     name = std::move(*parsed);
   }

@@ -6,12 +6,12 @@
 
 namespace laterna::app {
 
-Result<NumberedName> NumberedName::parse(const char* option, const std::string& output) {
+Result<NumberedName> NumberedName::parse(const char* option, const std::string& output, bool takes_films) {
   const std::size_t begin = output.find('#');
   if (begin == std::string::npos) {
-    return tl::unexpected(bad_option(
-        fmt::format("{}: the output needs # where the frame's number goes, such as out.####.png, got \"{}\"",
-                    option, output)));
+    return tl::unexpected(bad_option(fmt::format(
+        "{}: the output needs # where the frame's number goes, such as out.####.png{}, got \"{}\"", option,
+        takes_films ? ", or a film's ending (.mp4, .mkv, .webm or .gif)" : "", output)));
   }
   const std::size_t found = output.find_first_not_of('#', begin);
   const std::size_t end = found == std::string::npos ? output.size() : found;

@@ -12,7 +12,8 @@ namespace laterna::app {
 class NumberedName {
  public:
   /// Error, for the option that asks for it: there is no #, or more than one run, or one in the name of a folder.
-  static Result<NumberedName> parse(const char* option, const std::string& output);
+  /// takes_films: whether the option writes films, too, which the error then tells.
+  static Result<NumberedName> parse(const char* option, const std::string& output, bool takes_films);
   [[nodiscard]] std::string with(std::int64_t number) const;
 
  private:

@@ -81,7 +81,7 @@ class PhotoCommand {
     size_ = *size;
     if (const std::string fault = find_usage_fault(); !fault.empty()) return report(bad_option(fault));
     if (!o_.fly.empty()) {
-      Result<NumberedName> name = NumberedName::parse("--fly", o_.output);
+      Result<NumberedName> name = NumberedName::parse("--fly", o_.output, false);
       if (!name) return report(name.error());
       name_ = std::move(*name);
     }

@@ -67,6 +67,24 @@ void SceneOptions::declare_scene(CLI::App& command) {
       ->capture_default_str();
 }
 
+namespace {
+
+// CLI11's own range says of "2GB" that it is out of range, which does not tell that no unit may follow.
+CLI::Validator whole_megabytes(std::uint64_t most) {
+  return {
+      [most](std::string& text) {
+        std::uint64_t number = 0;
+        const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (fault == std::errc() && end == text.data() + text.size() && number <= most) return std::string();
+        return fmt::format(
+            "expected a whole number of megabytes from 0 to {}, without a unit (2048 for 2 GB), got \"{}\"",
+            most, text);
+      },
+      fmt::format("MEGABYTES in [0 - {}]", most)};
+}
+
+}  // namespace
+
 void SceneOptions::declare_machine(CLI::App& command) {
   command.add_option("--threads", threads, "0: one per processor; the picture is the same for any number")
       ->capture_default_str();
@@ -75,7 +93,7 @@ void SceneOptions::declare_machine(CLI::App& command) {
   command
       .add_option("--cache-memory", cache_megabytes,
                   "megabytes of shadow maps that are kept from picture to picture; 0: none")
-      ->check(CLI::Range(std::uint64_t{0}, kMaxCacheBytes >> 20U))
+      ->check(whole_megabytes(kMaxCacheBytes >> 20U))
       ->capture_default_str();
   command.add_option("--isa", instruction_set,
                      "instruction set: scalar, sse4, avx2, avx512 or neon; the picture is the same");

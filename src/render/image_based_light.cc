@@ -115,8 +115,9 @@ Result<void> filter_environment(Scene& scene, const ImageBasedLightSettings& set
                                 const RendererOptions& options) {
   const int size = settings.face_size;
   if (size < kSmallestFace || size > kLargestFace || !std::has_single_bit(static_cast<unsigned>(size))) {
-    return refuse(fmt::format("the faces' size must be a power of two from {} to {}, got {}", kSmallestFace,
-                              kLargestFace, size));
+    return refuse(
+        fmt::format("the size of an environment's faces must be a power of two, {}, {}, {} ... {}, got {}",
+                    kSmallestFace, 2 * kSmallestFace, 4 * kSmallestFace, kLargestFace, size));
   }
   if (Result<void> checked = render::check_options(options); !checked) return checked;
   if (std::vector<Diagnostic> faults = validate(scene); !faults.empty())

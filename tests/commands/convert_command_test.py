@@ -181,6 +181,8 @@ class Convert(unittest.TestCase):
             ([SCENES / "none.glb", "-o", self.folder / "a.glb"], BAD_INPUT, "no such file"),
             ([SCENES / "room.glb", "-o", self.folder / "none" / "a.glb"], CANNOT_WRITE, "cannot create"),
             ([SCENES / "room.glb"], BAD_USAGE, "--output is required"),
+            ([SCENES / "room.glb", "-o", self.folder / "a.glb", "--environment-size", "100"], BAD_USAGE,
+             "must be a power of two, 32, 64, 128 ... 4096, got 100"),
         ]:
             done = run("convert", *arguments)
             self.assertEqual(done.returncode, code, done.stderr)

@@ -55,7 +55,9 @@ class Environment(unittest.TestCase):
             self.assertEqual((told["from"], told["chart"]), ("latlong", chart))
 
     def test_bad_usage_and_bad_input(self):
-        self.assertEqual(run("environment").returncode, 2)
+        nothing = run("environment", self.sky)
+        self.assertEqual(nothing.returncode, 2)
+        self.assertIn("laterna environment IN OUT", nothing.stderr)
         self.assertEqual(run("environment", self.sky, self.place / "o.exr", "--chart", "globe").returncode, 2)
         self.assertEqual(run("environment", self.sky, self.place / "o.xyz").returncode, 2)
         wrong = run("environment", self.sky, self.place / "o.exr", "--from", "sphere")

@@ -122,10 +122,11 @@ class Frames(unittest.TestCase):
         self.assertGreater(kept[0]["map_reuse"]["triangles"], 0)
         self.assertEqual([p["map_reuse"]["tiles_drawn"] for p in kept[1:]], [0, 0])
         self.assertEqual({p["map_reuse"]["tiles_kept"] for p in kept[1:]}, {kept[0]["map_reuse"]["tiles_drawn"]})
-        for wrong in ("-1", "1048577", "much"):
+        for wrong in ("-1", "1048577", "much", "2GB"):
             done = self.render(*frames, "--cache-memory", wrong)
             self.assertEqual(done.returncode, 2)
             self.assertIn("--cache-memory", done.stderr)
+            self.assertIn("expected a whole number of megabytes from 0 to 1048576, without a unit", done.stderr)
             self.assertIn(wrong, done.stderr)
 
     def test_paths_clips_and_turntables(self):
@@ -156,6 +157,7 @@ class Frames(unittest.TestCase):
             (["--shutter", "1/48", "-o", str(self.at / "out.png")], "--shutter needs --accumulate"),
             (["--shutter", "1/0", "--accumulate", "4", "-o", str(self.at / "out.png")], "--shutter: expected seconds greater than 0"),
             (["--frames", "0:3", "-o", str(self.at / "out.png")], "the output needs # where the frame's number goes"),
+            (["--frames", "0:3", "-o", str(self.at / "out.avi")], "or a film's ending (.mp4, .mkv, .webm or .gif), got"),
             (["--frames", "0:3", "-o", str(self.at / "a#b#.png")], "expected one run of # in the name of the output"),
             (["--frames", "3:0", "-o", out], "--frames: expected FIRST:LAST"),
             (["--frames", "-1:2", "-o", out], "--frames: expected FIRST:LAST"),
