@@ -5,10 +5,11 @@
 namespace laterna::render {
 
 MirrorDrawing::MirrorDrawing(const frame::Frame& frame, const light::MirrorPlan& plan, int width, int height,
-                             double seconds, DrawPart draw_part)
+                             int samples, double seconds, DrawPart draw_part)
     : plan_(plan),
       width_(width),
       height_(height),
+      samples_(samples),
       seconds_(seconds),
       draw_part_(std::move(draw_part)),
       mirror_of_cluster_(frame.clusters.size(), -1) {
@@ -46,7 +47,7 @@ std::vector<bool> MirrorDrawing::clusters_in_plane_of(int mirror) const {
 std::unique_ptr<const shade::MirrorPicture> MirrorDrawing::draw_picture(int index) const {
   const light::MirrorView& seen = plan_.views[static_cast<std::size_t>(index)];
   const Mirror& mirror = *plan_.mirrors[static_cast<std::size_t>(seen.mirror)].mirror;
-  auto picture = std::make_unique<shade::MirrorPicture>(seen, mirror, width_, height_, seconds_);
+  auto picture = std::make_unique<shade::MirrorPicture>(seen, mirror, width_, height_, samples_, seconds_);
   shade::MirrorJob within = draw_seen_by(index);
   const double sign = seen.is_refracted ? -1 : 1;
   const raster::CuttingPlane cut = {sign * seen.normal_ws, sign * seen.offset - seen.margin};
@@ -59,6 +60,7 @@ std::unique_ptr<const shade::MirrorPicture> MirrorDrawing::draw_picture(int inde
     picture->write(tile_x, tile_y, tile);
   };
   part.wants_depth = picture->needs_depth();
+  part.wants_samples = picture->needs_samples();
   part.seen = &seen;
   draw_part_(seen.view, part, std::move(within));
   picture->finish();

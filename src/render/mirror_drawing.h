@@ -18,7 +18,8 @@ struct PicturePart {
   const std::vector<bool>* left_out = nullptr;  ///< by cluster, what is not drawn; null: all is
   /// Called from several threads at once, with tiles that `pixels` touch.
   std::function<void(int tile_x, int tile_y, const shade::TileResult&)> write;
-  bool wants_depth = false;  ///< WantedLayers::geometry; the picture's other layers are its own affair
+  bool wants_samples = false;  ///< WantedLayers::samples
+  bool wants_depth = false;    ///< WantedLayers::geometry; the picture's other layers are its own affair
   std::uint32_t excluded_flags = 0;         ///< no clusters with any of these
   const light::MirrorView* seen = nullptr;  ///< what it is of; null: the picture's own view
 };
@@ -28,8 +29,8 @@ class MirrorDrawing {
   /// Draws a part of a view's picture with those mirrors in it.
   using DrawPart = std::function<void(const View& view, const PicturePart& part, shade::MirrorJob mirrors)>;
 
-  /// All must outlive it. Width and height: of the picture, in pixels; `seconds`: scene time, which moves waves.
-  MirrorDrawing(const frame::Frame& frame, const light::MirrorPlan& plan, int width, int height,
+  /// All must outlive it. Width and height: of the picture, in pixels, each of so many samples; `seconds`: scene time, which moves waves.
+  MirrorDrawing(const frame::Frame& frame, const light::MirrorPlan& plan, int width, int height, int samples,
                 double seconds, DrawPart draw_part);
 
   /// The mirrors in the picture's own view.
@@ -41,7 +42,7 @@ class MirrorDrawing {
   [[nodiscard]] std::vector<bool> clusters_in_plane_of(int mirror) const;
 
   const light::MirrorPlan& plan_;
-  int width_, height_;
+  int width_, height_, samples_;
   double seconds_;
   DrawPart draw_part_;
   std::vector<int> mirror_of_cluster_;

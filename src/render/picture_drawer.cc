@@ -248,7 +248,8 @@ void PictureDrawer::draw_bands(const raster::RasterView& view, const RenderSetti
   options.instruction_set = instruction_set_;
   options.cut = part.cut;
   options.left_out = part.left_out;
-  for (const shade::SampleOffset& offset : shade::sample_offsets(settings.samples, job.jitter)) {
+  for (const shade::SampleOffset& offset :
+       shade::sample_offsets(settings.samples, job.jitter, job.is_turned)) {
     options.sample_reach = std::max({options.sample_reach, std::abs(offset.x), std::abs(offset.y)});
   }
   for (int band = 0; band < bands && !progress.is_cancelled(); ++band) {
@@ -333,9 +334,10 @@ Result<void> PictureDrawer::draw_part(const View& from, const RenderSettings& se
   if (frame().has_mirrors) maps_.make_room(cache_bytes_);
   shade::ShaderJob job = make_job(view, settings, plan, way, statistics, progress);
   job.jitter = jitter_of(sample);
-  if (part.seen != nullptr && part.seen->is_turned) job.jitter.x = std::min(-job.jitter.x, 127);
+  job.is_turned = part.seen != nullptr && part.seen->is_turned;
   job.mirrors = std::move(mirrors);
   if (part.wants_depth) job.wanted.geometry = true;
+  job.wanted.samples = part.wants_samples;
   statistics.shadow_ms += watch.lap_ms();
   std::optional<shade::EarlierView> behind;
   if (looks_through(settings) && !progress.is_cancelled()) {
@@ -367,8 +369,9 @@ Result<shade::MirrorJob> PictureDrawer::draw_mirrors(const View& from, const Ren
     if (outcome && !progress.asks_to_stop())
       outcome = draw_part(view, plain, sample, part, std::move(within), statistics, progress);
   };
-  shade::MirrorJob mirrors =
-      MirrorDrawing(frame(), *plan, settings.width, settings.height, posed_.time(), draw_one).draw();
+  shade::MirrorJob mirrors = MirrorDrawing(frame(), *plan, settings.width, settings.height, settings.samples,
+                                           posed_.time(), draw_one)
+                                 .draw();
   if (!outcome) return tl::unexpected(std::move(outcome.error()));
   return mirrors;
 }

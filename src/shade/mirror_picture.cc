@@ -6,9 +6,10 @@
 namespace laterna::shade {
 
 MirrorPicture::MirrorPicture(const light::MirrorView& seen, const Mirror& mirror, int width, int height,
-                             double seconds)
+                             int samples, double seconds)
     : mirror_(&mirror),
       seen_(seen),
+      samples_(static_cast<std::size_t>(samples)),
       seconds_(seconds),
       drawn_(seen.view, width, height),
       box_(seen.is_refracted ? seen.box : light::mirrored(seen.box, width)),
@@ -17,6 +18,7 @@ MirrorPicture::MirrorPicture(const light::MirrorView& seen, const Mirror& mirror
   finest.width = box_.x_end - box_.x_begin;
   finest.height = box_.y_end - box_.y_begin;
   finest.pixels.resize(static_cast<std::size_t>(finest.width) * static_cast<std::size_t>(finest.height));
+  if (needs_samples()) sample_radiance_.resize(finest.pixels.size() * samples_);
 }
 
 void MirrorPicture::write(int tile_x, int tile_y, const TileResult& tile) {
@@ -28,13 +30,18 @@ void MirrorPicture::write(int tile_x, int tile_y, const TileResult& tile) {
   const int y_begin = std::max(drawn.y_begin, tile_y * kSide),
             y_end = std::min(drawn.y_end, (tile_y + 1) * kSide);
   for (int y = y_begin; y < y_end; ++y) {
-    glm::vec4* row = finest.pixels.data() +
-                     static_cast<std::size_t>(y - box_.y_begin) * static_cast<std::size_t>(finest.width);
+    const std::size_t row =
+        static_cast<std::size_t>(y - box_.y_begin) * static_cast<std::size_t>(finest.width);
     for (int x = x_begin; x < x_end; ++x) {
       const auto i = static_cast<std::size_t>(raster::index_in_tile(x - tile_x * kSide, y - tile_y * kSide));
       const float nearness = needs_depth() ? 1 / tile.depth[i] : 0;
       const int column = seen_.is_refracted ? x : drawn_.width - 1 - x;
-      row[column - box_.x_begin] = {tile.beauty.r[i], tile.beauty.g[i], tile.beauty.b[i], nearness};
+      const std::size_t pixel = row + static_cast<std::size_t>(column - box_.x_begin);
+      finest.pixels[pixel] = {tile.beauty.r[i], tile.beauty.g[i], tile.beauty.b[i], nearness};
+      for (std::size_t s = 0; needs_samples() && s < samples_; ++s) {
+        const TileColor& sample = tile.samples[s];
+        sample_radiance_[pixel * samples_ + s] = {sample.r[i], sample.g[i], sample.b[i]};
+      }
     }
   }
 }
@@ -88,6 +95,15 @@ const glm::vec4& MirrorPicture::Level::at(int x, int y) const {
 
 const glm::vec4& MirrorPicture::at(int x, int y) const {
   return levels_[0].at(x - box_.x_begin, y - box_.y_begin);
+}
+
+glm::vec3 MirrorPicture::at_sample(int x, int y, std::size_t number) const {
+  if (!needs_samples()) return glm::vec3(at(x, y));
+  const int column = std::clamp(x, box_.x_begin, box_.x_end - 1) - box_.x_begin,
+            row = std::clamp(y, box_.y_begin, box_.y_end - 1) - box_.y_begin;
+  const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(levels_[0].width) +
+                            static_cast<std::size_t>(column);
+  return sample_radiance_[pixel * samples_ + number];
 }
 
 const glm::vec4& MirrorPicture::nearest(float x, float y) const {

@@ -14,8 +14,9 @@ namespace laterna::shade {
 
 class MirrorPicture {
  public:
-  /// `seen`: drawn into a picture of `width` × `height` pixels. `mirror` must outlive this.
-  MirrorPicture(const light::MirrorView& seen, const Mirror& mirror, int width, int height, double seconds);
+  /// `seen`: drawn into a picture of `width` × `height` pixels of so many samples. `mirror` must outlive this.
+  MirrorPicture(const light::MirrorView& seen, const Mirror& mirror, int width, int height, int samples,
+                double seconds);
 
   [[nodiscard]] const Mirror& mirror() const { return *mirror_; }
   /// Of the mirror, toward the eye.
@@ -32,6 +33,9 @@ class MirrorPicture {
     return mirror_->roughness > 0 || !mirror_->waves.empty() || seen_.is_refracted;
   }
 
+  /// Whether each sample is looked at by itself, as flat and smooth mirrors do: WantedLayers::samples must be set.
+  [[nodiscard]] bool needs_samples() const { return samples_ > 1 && !needs_depth(); }
+
   /// A tile of the mirrored picture. Calls for different tiles may come from several threads at once.
   void write(int tile_x, int tile_y, const TileResult& tile);
   /// Once all tiles are there.
@@ -39,6 +43,9 @@ class MirrorPicture {
 
   /// Radiance, and 1 / metres along the axis (0: infinitely far), at a pixel of the view, held to what was drawn.
   [[nodiscard]] const glm::vec4& at(int x, int y) const;
+  /// Radiance of one sample of a pixel, the one that lies where the view's sample of that number does; where samples are not
+  /// kept, that of the pixel.
+  [[nodiscard]] glm::vec3 at_sample(int x, int y, std::size_t number) const;
   /// The same between pixels' centres, x and y from the picture's corner, of means over 2^level × 2^level pixels.
   [[nodiscard]] glm::vec4 interpolated(float x, float y, int level) const;
   /// What at() has at the pixel that a place of the picture lies in, wherever that is.
@@ -63,12 +70,14 @@ class MirrorPicture {
 
   const Mirror* mirror_;
   light::MirrorView seen_;
+  std::size_t samples_;
   double seconds_;
   raster::RasterView drawn_;
   light::PixelBox box_;  // of the view's picture
   float farthest_ = 0;
   double deepest_ = 0;
   std::vector<Level> levels_;
+  std::vector<glm::vec3> sample_radiance_;  // of the finest level's pixels, those of a pixel side by side
 };
 
 }  // namespace laterna::shade

@@ -98,7 +98,8 @@ Mirroring MirrorShader::reflect(const MirrorPicture& picture, const MirrorSample
   if (mirror.waves.empty()) {
     const glm::dvec3 ray = ray_of(sample);
     const glm::vec3 share = share_of(picture, cosine_to(picture.normal_ws(), ray / glm::length(ray)));
-    if (mirror.roughness == 0) return {glm::vec3(picture.at(sample.pixel_x, sample.pixel_y)), share};
+    if (mirror.roughness == 0)
+      return {picture.at_sample(sample.pixel_x, sample.pixel_y, sample.number), share};
     return {rough(picture, sample, static_cast<float>(sample.pixel_x) + 0.5F,
                   static_cast<float>(sample.pixel_y) + 0.5F),
             share};

@@ -26,6 +26,7 @@ struct MirrorJob {
 struct MirrorSample {
   int pixel_x, pixel_y;  ///< of the picture
   float x, y, q;         ///< its place from the view's origin, and its reversed depth
+  std::size_t number;    ///< among the samples of its pixel
 };
 
 /// Radiance of what is mirrored, and the share of it that is seen; the rest is the surface's own.

@@ -1,5 +1,6 @@
 #include "shade/sample_offsets.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -49,11 +50,13 @@ int within_pixel(int offset) { return ((offset + 128) & 255) - 128; }
 
 }  // namespace
 
-std::vector<SampleOffset> sample_offsets(int count, SampleOffset jitter) {
+std::vector<SampleOffset> sample_offsets(int count, SampleOffset jitter, bool is_turned) {
   const std::span<const SampleOffset> pattern = standard_pattern(count);
   std::vector<SampleOffset> offsets;
   for (const SampleOffset& at : pattern)
     offsets.push_back({within_pixel(at.x + jitter.x), within_pixel(at.y + jitter.y)});
+  // Half a pixel to the left would be the next pixel's when turned: it stays in this one, 1/256 pixel short.
+  for (SampleOffset& at : offsets) at.x = is_turned ? std::min(-at.x, 127) : at.x;
   return offsets;
 }
 

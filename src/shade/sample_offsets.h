@@ -10,7 +10,8 @@ struct SampleOffset {
   int x = 0, y = 0;
 };
 /// Direct3D's standard patterns; the first is the nearest to the centre. count: 1, 2, 4, 8, 16. All of them are moved by
-/// `jitter`, from −128 to 127, and what leaves the pixel on one side comes back on the other.
-std::vector<SampleOffset> sample_offsets(int count, SampleOffset jitter);
+/// `jitter`, from −128 to 127, and what leaves the pixel on one side comes back on the other. `is_turned`: right is left then, for
+/// pictures of mirrored views.
+std::vector<SampleOffset> sample_offsets(int count, SampleOffset jitter, bool is_turned = false);
 
 }  // namespace laterna::shade

@@ -49,6 +49,8 @@ struct ShaderJob {
   int anisotropy = 1;
   int samples_per_pixel = 1;
   SampleOffset jitter;  // of the samples
+  bool is_turned =
+      false;  // the picture's left is another's right, and so are its samples' (light::MirrorView)
   Passes passes = Passes::single;
   const glm::vec3* background = nullptr;  // null: black and transparent
   WantedLayers wanted;

@@ -26,12 +26,14 @@ struct WantedLayers {
   bool geometry = false;       // depth, position, normal, object
   bool albedo = false;
   bool photographs = false;
-  bool passes = false;  // Passes::multi: the frame buffer after each pass
+  bool passes = false;   // Passes::multi: the frame buffer after each pass
+  bool samples = false;  // beauty of each sample of a pixel, where there are several
 };
 
 /// What came out. Planes of layers that were not wanted are empty or unspecified.
 struct TileResult {
   TileColor beauty;
+  std::vector<TileColor> samples;  // wanted.samples: beauty of each
   TilePlane alpha;
   std::vector<TileColor>
       radiance;  // wanted.lights: ambient, one per light, the environment where there is one

@@ -27,7 +27,7 @@ class TileShader::Worker {
  public:
   explicit Worker(const ShaderJob& job)
       : job_(job),
-        offsets_(sample_offsets(job.samples_per_pixel, job.jitter)),
+        offsets_(sample_offsets(job.samples_per_pixel, job.jitter, job.is_turned)),
         layers_(*job.frame, *job.view, job.wanted, result_),
         batch_(job, layers_, result_),
         cut_(batch_.source(), job.instruction_set),
@@ -248,8 +248,12 @@ class TileShader::Worker {
     const auto x = static_cast<int>(block % raster::kBlocksPerSide * raster::kBlockSide + (within & 3U));
     const auto y = static_cast<int>(block / raster::kBlocksPerSide * raster::kBlockSide + (within >> 2U));
     const TileOrigin from = origin();
-    return {tile_x_ * raster::kTileSide + x, tile_y_ * raster::kTileSide + y, from.x + static_cast<float>(x),
-            from.y + static_cast<float>(y), q};
+    return {tile_x_ * raster::kTileSide + x,
+            tile_y_ * raster::kTileSide + y,
+            from.x + static_cast<float>(x),
+            from.y + static_cast<float>(y),
+            q,
+            sample_};
   }
 
   static void weigh(TileColor& plane, std::size_t pixel, const glm::vec3& weight) {
@@ -351,6 +355,7 @@ class TileShader::Worker {
       result_.alpha = coverage_;
       return;
     }
+    keep_sample();
     if (sample_ == 0) {
       result_.radiance.resize(planes_.size());
       std::copy(planes_.begin(), planes_.end(), result_.radiance.begin());
@@ -359,6 +364,15 @@ class TileShader::Worker {
     }
     for (std::size_t i = 0; i < planes_.size(); ++i) add(result_.radiance[i], planes_[i]);
     add(result_.alpha, coverage_);
+  }
+
+  // What this sample shows by itself.
+  void keep_sample() {
+    if (!job_.wanted.samples) return;
+    result_.samples.resize(offsets_.size());
+    TileColor& sum = result_.samples[sample_];
+    sum = planes_[0];
+    for (std::size_t i = 1; i < planes_.size(); ++i) add(sum, planes_[i]);
   }
 
   void finish() {

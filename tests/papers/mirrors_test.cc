@@ -293,13 +293,19 @@ TEST(Mirrors, LeaveNoGapAtContacts) {
   scene.materials.back().mirror = std::make_shared<const Mirror>();
   add_glowing(scene, "wall", black.primitive, glm::vec3(0));
   scene.background = glm::vec3(1);
-  RenderSettings settings = test_settings(101, 40);
-  settings.accumulate = 16;
+  const Renderer renderer = make_renderer(std::move(scene));
   const View view = look({0.3, 0, 0}, {-0.9, 0, -3}, 30, 2.5);
-  const LayeredImage image = render(make_renderer(std::move(scene)), view, settings);
   const int contact = static_cast<int>(pixel_of(view, {-1, 0, -3}, 101, 40).x);
-  for (int y = 10; y < 30; ++y) {
-    for (int x = contact - 5; x < contact + 5; ++x) EXPECT_EQ(at(image, "R", x, y), 0) << x << ", " << y;
+  for (const auto& [samples, accumulate] :
+       {std::pair(1, 1), std::pair(1, 16), std::pair(4, 1), std::pair(16, 1)}) {
+    RenderSettings settings = test_settings(101, 40);
+    settings.samples = samples;
+    settings.accumulate = accumulate;
+    const LayeredImage image = render(renderer, view, settings);
+    for (int y = 10; y < 30; ++y) {
+      for (int x = contact - 5; x < contact + 5; ++x)
+        EXPECT_EQ(at(image, "R", x, y), 0) << samples << " samples: " << x << ", " << y;
+    }
   }
 }
 
