@@ -182,10 +182,11 @@ class MirrorPlanning {
     const PixelBox box = pixels_of(mirror, from);
     if (box.is_empty()) return seen;
     if (is_refracted) {
+      const SeenOfPlane parts = seen_of(mirror, from);
+      if (parts.corners_ws.empty()) return seen;  // beside the picture, by less than the pixels about the box
       const double ior = *mirror.mirror->ior;
-      const RefractedView below =
-          refracted_view(view, width_, height_, {seen.normal_ws, seen.offset, before < 0 ? 1 / ior : ior},
-                         seen_of(mirror, from));
+      const RefractedView below = refracted_view(
+          view, width_, height_, {seen.normal_ws, seen.offset, before < 0 ? 1 / ior : ior}, parts);
       seen.box = below.box;
       seen.view = below.view;
       seen.margin = 2 * below.pixel;

@@ -1,10 +1,12 @@
 // Water that is seen through, and mirrors and water in means and films: "reflection, not shadow" (row 49).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "laterna/mirrors.h"
+#include "light/mirror_plan.h"
 #include "raster/raster_view.h"
 #include "reference/picture_probes.h"
 #include "reference/shapes.h"
@@ -319,6 +321,33 @@ TEST(Water, MirroredViewsKeepMapsThatFollowTheCamera) {
   ASSERT_TRUE(renderer.render(kOverPool, settings, {}, &statistics));
   EXPECT_EQ(statistics.maps_drawn, 0);
   EXPECT_EQ(statistics.maps_kept, 3 * 3);
+}
+
+// Water that ends half a pixel beside the picture: nothing of it is seen, and nothing is drawn.
+TEST(Water, BesideThePictureIsNotLookedInto) {
+  Scene scene = dark();
+  add_water(scene, clear_water(glm::vec3(1)), 1);
+  const OwnedFrame own = make_frame(std::move(scene));
+  View view = look({0, 5, 5}, {0, 0, 0}, 20, 1);
+  const auto looks_beside = [&](double pixels) {
+    // The picture's left side is so far right of the water's right side.
+    constexpr double kPixel = 0.01;
+    view.pose.position_ws = {0, 5, 5};
+    const glm::dvec3 right = view.pose.right_ws();
+    view.projection = Projection::orthographic(0.64, 0.64, 0.1, 20);
+    const double middle = 1 + pixels * kPixel + 0.5 * (view.projection.right - view.projection.left);
+    view.pose.position_ws += right * middle;
+    const Result<light::MirrorPlan> plan = light::make_mirror_plan(own.frame, view, 128, 128, 2);
+    for (const light::MirrorView& seen : plan->views) {
+      for (const double side : {seen.view.projection.left, seen.view.projection.right,
+                                seen.view.projection.bottom, seen.view.projection.top})
+        EXPECT_TRUE(std::abs(side) < 1e6) << side;
+    }
+    return std::count_if(plan->views.begin(), plan->views.end(),
+                         [](const light::MirrorView& seen) { return seen.is_refracted; });
+  };
+  EXPECT_EQ(looks_beside(-5), 1);
+  EXPECT_EQ(looks_beside(0.3), 0);
 }
 
 }  // namespace
