@@ -77,11 +77,12 @@ std::optional<Angle> JsonObject::angle(std::string_view name, const NumberRange&
   }
   constexpr double kSinglePrecision = 1 + 1e-7;
   NumberRange radians = degrees;
-  radians.low = Angle::degrees(degrees.low).in_radians();
+  radians.low = Angle::degrees(degrees.low).in_radians() *
+                (degrees.low < 0 && !degrees.open_low ? kSinglePrecision : 1);
   radians.high = Angle::degrees(degrees.high).in_radians() * (degrees.open_high ? 1 : kSinglePrecision);
   const std::optional<double> value = number(name, radians);
   if (!value) return std::nullopt;
-  return std::min(Angle::radians(*value), Angle::degrees(degrees.high));
+  return std::clamp(Angle::radians(*value), Angle::degrees(degrees.low), Angle::degrees(degrees.high));
 }
 
 std::optional<bool> JsonObject::boolean(std::string_view name) {

@@ -12,7 +12,9 @@ namespace {
 Wave read_wave(const JsonDocument& json, const JsonValue& value, FaultList& faults,
                const SettingNames& names) {
   constexpr NumberRange kWaveLength{kShortestWave, kMaxCoordinate, false, false};
-  constexpr NumberRange kSpeed{-1e6, 1e6, false, false}, kPhase{-36000, 36000, false, false};
+  constexpr NumberRange kSpeed{-1e6, 1e6, false, false};
+  const double most = Angle::radians(kMaxWavePhase).in_degrees();
+  const NumberRange phase{-most, most, false, false};
   JsonObject object(json, value, faults, names);
   Wave wave;
   object.require_all({"direction", "length", "amplitude"});
@@ -23,7 +25,7 @@ Wave read_wave(const JsonDocument& json, const JsonValue& value, FaultList& faul
   wave.length = object.number("length", kWaveLength).value_or(wave.length);
   wave.amplitude = object.number("amplitude", kLength).value_or(wave.amplitude);
   wave.speed = object.number("speed", kSpeed);
-  wave.phase = object.angle("phase_deg", kPhase).value_or(Angle()).in_radians();
+  wave.phase = object.angle("phase_deg", phase).value_or(Angle()).in_radians();
   object.report_unknown_members("a wave");
   return wave;
 }
