@@ -17,6 +17,7 @@
 #include "scene/gltf_light_extensions.h"
 #include "scene/key_frames.h"
 #include "scene/scene_pose.h"
+#include "scene/spelling.h"
 
 namespace laterna::gltf {
 namespace {
@@ -142,8 +143,8 @@ class ClipWriter {
     }
     const std::string pointer = pointer_to(channel);
     if (pointer.empty()) {
-      document_.warn(place_,
-                     fmt::format("glTF has no name for what a channel moves: it stands still in the file"));
+      document_.warn(place_, fmt::format("clip {}: glTF has no name for {}: it stands still in the file",
+                                         in_quotes(clip_.name), moved_by(channel)));
       return;
     }
     Json target = {{"path", "pointer"}};
@@ -155,6 +156,21 @@ class ClipWriter {
 
   void add_channel(int sampler, Json target) {
     channels_.push_back({{"sampler", sampler}, {"target", std::move(target)}});
+  }
+
+  // The property and whose it is, in glTF's words where it has one for others of the kind.
+  [[nodiscard]] std::string moved_by(const ClipChannel& channel) const {
+    const auto target = static_cast<std::size_t>(channel.target);
+    const auto of = [&](std::string_view word, AnimatedKind kind, const std::string& name) {
+      const std::string path = property_path(kind, channel.property, channel.texture, false);
+      return fmt::format("{} of the {} {}", path.empty() ? "a property" : path, word, in_quotes(name));
+    };
+    if (channel.property == P::look_at) return of("node", AnimatedKind::node, scene_.nodes[target].name);
+    if (channel.property >= P::base_color)
+      return of("material", AnimatedKind::material, scene_.materials[target].name);
+    if (channel.property >= P::light_color || channel.of_light)
+      return of("light", AnimatedKind::light, scene_.lights[target].name);
+    return of("camera", AnimatedKind::camera, scene_.cameras[target].name);
   }
 
   // Empty: there is none.

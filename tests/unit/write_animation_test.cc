@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "laterna/lamps.h"
 #include "laterna/material_lobes.h"
 #include "laterna/write_scene.h"
 #include "reference/scene_differences.h"
@@ -227,6 +228,37 @@ TEST(WriteAnimation, CopiesOfMaterialsAreAnimatedToo) {
   const Scene half = posed(*read, 0.5);
   ASSERT_EQ(half.materials.size(), 2U);
   for (const Material& material : half.materials) EXPECT_FLOAT_EQ(material.metallic, 0.5F);
+}
+
+// Measured lamps have no place in glTF's list of lights, so that nothing can point at them.
+TEST(WriteAnimation, WarningsNameWhatStandsStill) {
+  const TemporaryFolder folder;
+  Scene scene;
+  Node node;
+  node.name = "stand";
+  node.light = 0;
+  scene.nodes.push_back(node);
+  Light lamp;
+  lamp.name = "downlight";
+  lamp.type = LightType::point;
+  LightDistribution measured;
+  measured.vertical_deg = {0, 180};
+  measured.horizontal_deg = {0, 360};
+  measured.candela = {100, 50, 100, 50};
+  lamp.distribution = std::make_shared<const LightDistribution>(measured);
+  scene.lights.push_back(lamp);
+  Clip clip;
+  clip.name = "dusk";
+  add_channel(clip, P::intensity, 0, {KeyInterpolation::linear, {0, 1}, {1, 0.5}}, true);
+  scene.clips.push_back(clip);
+  const Result<std::vector<Diagnostic>> written = write_scene(scene, folder.path() / "a.gltf");
+  ASSERT_TRUE(written) << to_string(written.error());
+  std::string said;
+  for (const Diagnostic& warning : *written) said += warning.message + "\n";
+  EXPECT_NE(said.find("clip \"dusk\": glTF has no name for intensity of the light \"downlight\": it stands "
+                      "still in the file"),
+            std::string::npos)
+      << said;
 }
 
 // A rig's paths lead gazes, which glTF has not: others get places and turns on the way.
