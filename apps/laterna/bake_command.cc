@@ -30,6 +30,7 @@ struct Options {
   bool embeds = false, json = false;
   RadiositySettings radiosity{.bounces = 0};
   std::optional<double> stops;
+  ImageBasedLightSettings environment;
 };
 
 std::string text_of(const BakeReport::Page& page) {
@@ -155,6 +156,8 @@ int run_bake(Options options) {
   }
   Result<RendererOptions> machine = options.scene.renderer_options();
   if (!machine) return report(machine.error());
+  if (const Result<void> filtered = filter_environment(*scene, options.environment, *machine); !filtered)
+    return report(filtered.error());
   options.bake.options = std::move(*machine);
   options.bake.options.time = options.scene.time;
   if (options.radiosity.bounces > 0) options.bake.interreflection = options.radiosity;
@@ -236,10 +239,11 @@ void declare_bake(CLI::App& app, Run& run) {
   command
       ->add_option("--exposure", o.stops,
                    "stops, with --into emissive, whose textures end at white (default: automatic)")
-      ->check(CLI::Range(-40, 40));
+      ->check(CLI::Range(-40.0, 40.0));
   command->add_option("--lights", b.lights, "bake these lights only, by name; the others stay")
       ->delimiter(',');
-  command->add_flag("--keep-lights", b.keep_lights, "leave the baked lights in the file: they shine twice");
+  command->add_flag("--keep-lights", b.keep_lights,
+                    "leave the baked lights in the file: with light maps, they shine twice");
   command->add_flag("--unwrap", b.unwrap_all,
                     "lay surfaces out anew even where their second texture coordinates serve");
   command->add_flag("--resume", b.resume, "go on where a run of the same bake was stopped");
@@ -248,6 +252,7 @@ void declare_bake(CLI::App& app, Run& run) {
       "--quake", o.quake,
       "NAME.png: the first camera's view the way Quake showed it in 1996, NAME.texture.png, NAME.light.png "
       "and NAME.product.png, and how often a walk finds its surfaces in the cache");
+  declare_written_environment(*command, o.environment);
   o.scene.declare_machine(*command);
   command->add_flag("--json", o.json, "what was done, as JSON, to standard output");
   command->footer(
@@ -262,7 +267,8 @@ void declare_bake(CLI::App& app, Run& run) {
       "is,\n"
       "docs/LATERNA_light_map.md), unless it is baked --into emissive; ambient occlusion is glTF's own. "
       "Lights that were baked are left "
-      "out.\n"
+      "out;\n"
+      "the environment stays, and lights the scene beside the light maps.\n"
       "Shadows are found by rays, whatever the lights' techniques. A luxel of 6 cm (--density 16) shows "
       "shadows to\n"
       "about that.\n"

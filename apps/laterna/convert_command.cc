@@ -5,7 +5,6 @@
 #include <memory>
 #include <system_error>
 
-#include "laterna/image_based_light.h"
 #include "laterna/write_scene.h"
 #include "outcome.h"
 #include "scene_options.h"
@@ -83,10 +82,7 @@ void declare_convert(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("convert", "scenes and rigs into one glTF file, projectors and all");
   options->scene.declare_scene(*command);
   command->add_option("-o,--output", options->output, "the file to write: .glb or .gltf")->required();
-  command
-      ->add_option("--environment-size", options->environment.face_size,
-                   "pixels of an environment's six faces where nothing is rough: 32, 64, ... 4096")
-      ->capture_default_str();
+  declare_written_environment(*command, options->environment);
   options->scene.declare_machine(*command);
   command->add_flag("--embed", options->embeds,
                     "a .gltf of one piece: geometry, pictures and lamps inside it, as a .glb has them");

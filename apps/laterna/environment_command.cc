@@ -188,7 +188,7 @@ void declare_environment(CLI::App& app, Run& run) {
       ->check(CLI::Range(0, kMaxEnvironmentSize))
       ->capture_default_str();
   command->add_option("--exposure", o.exposure, "stops, for .png")
-      ->check(CLI::Range(-40, 40))
+      ->check(CLI::Range(-40.0, 40.0))
       ->capture_default_str();
   command->add_option("--from-scene", o.scene.files, "in place of IN: draw what a point of this scene sees")
       ->allow_extra_args(false);

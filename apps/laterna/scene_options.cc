@@ -176,6 +176,13 @@ Result<Renderer> SceneOptions::make_renderer(const std::function<void(Scene&)>& 
   return renderer;
 }
 
+void declare_written_environment(CLI::App& command, ImageBasedLightSettings& settings) {
+  command
+      .add_option("--environment-size", settings.face_size,
+                  "pixels of an environment's six faces where nothing is rough: 32, 64, ... 4096")
+      ->capture_default_str();
+}
+
 void ViewOptions::declare(CLI::App& command) {
   command.add_option("--camera", camera, "camera by name; without it the scene's first, or an overview");
   command.add_option("--from-light", from_light, "look with a light's eyes instead");

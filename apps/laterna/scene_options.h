@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "laterna/image_based_light.h"
 #include "laterna/render.h"
 
 namespace laterna::app {
@@ -35,6 +36,9 @@ struct SceneOptions {
   /// Loads the scene, lets `amend` change it, makes it ready at its time, and tells its warnings.
   [[nodiscard]] Result<Renderer> make_renderer(const std::function<void(Scene&)>& amend = {}) const;
 };
+
+/// --environment-size, of commands that write scenes.
+void declare_written_environment(CLI::App& command, ImageBasedLightSettings& settings);
 
 struct ViewOptions {
   std::string camera;

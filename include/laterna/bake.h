@@ -28,7 +28,8 @@ inline constexpr std::size_t kMostLightMaps = 4096;
 /// Where the light goes.
 enum class BakeInto : std::uint8_t {
   light_maps,  ///< LightMap of materials: seen by Laterna alone, in every exposure, with the colours of textures
-  /// Colours times light in emissive textures, 8-bit, as fine as luxels: seen by every program that reads glTF.
+  /// Colours times light in emissive textures, 8-bit, as fine as luxels: seen by every program that reads glTF. Ambient light,
+  /// the environment's diffuse light and layers are in them. These surfaces reflect nothing any more.
   emissive,
 };
 
@@ -53,11 +54,12 @@ struct BakeSettings {
       std::numeric_limits<double>::infinity();  ///< metres: what is farther away hides nothing
   bool unwrap_all = false;  ///< surfaces are laid out anew even where their second texture coordinates serve
   BakeInto into = BakeInto::light_maps;
-  /// BakeInto::emissive: factor on radiance, such that 1 is a viewer's white. 0: automatic_exposure() over all luxels.
+  /// BakeInto::emissive: factor on radiance, such that 1 is a viewer's white; of the whole scene, the environment and what is
+  /// not baked included. 0: automatic_exposure() over all luxels.
   float exposure = 0;
   std::vector<std::string> lights;  ///< to be baked, by name; empty: all that are on and add their light
-  bool keep_lights = false;         ///< those that were baked stay, and shine as well
-  RendererOptions options;          ///< threads, instruction set
+  bool keep_lights = false;  ///< those that were baked stay, and shine as well; not with BakeInto::emissive
+  RendererOptions options;   ///< threads, instruction set
   /// Finished parts are kept in files beside this one as they come ("room.glb.bake-0-3"), each whole or absent, until
   /// remove_bake_parts(). Empty: nowhere.
   std::filesystem::path work_file;
@@ -100,8 +102,10 @@ struct BakedScene {
 /// BakeSettings::interreflection, what surfaces reflect onto each other as well. What wears a skin or morphs is baked as it
 /// stands, and stays so. Surfaces that are not baked, with a warning: those whose textures use both sets of texture coordinates,
 /// where the second does not serve for light maps; glass. Those without a light to reflect (unlit) need none.
+/// The environment stays in the scene, and lights it beside light maps; filter_environment() makes it such as files can hold.
 /// The result depends on neither threads nor instruction set. `progress` may stop it: Failure::cancelled.
-/// Errors: a faulty setting or scene, a light that is not there, more than kMostLuxels or kMostLightMaps.
+/// Errors: a faulty setting or scene, a light that is not there, more than kMostLuxels or kMostLightMaps; with
+/// BakeInto::emissive, a light that is on and not among those to be baked.
 Result<BakedScene> bake_light(Scene scene, const BakeSettings& settings, const Progress& progress = {});
 
 /// Removes the finished parts of any bake of this file, stopped ones of other settings too: after what was baked is written.

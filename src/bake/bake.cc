@@ -6,14 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "bake/bake_notes.h"
 #include "bake/baked_pages.h"
 #include "bake/bounced_light.h"
+#include "bake/environment_irradiance.h"
 #include "bake/light_map_layout.h"
 #include "bake/luxel_padding.h"
+#include "bake/luxel_surfaces.h"
 #include "bake/own_frame.h"
 #include "bake/page_light.h"
 #include "bake/part_files.h"
@@ -22,6 +25,7 @@
 #include "base/refuse.h"
 #include "base/stopwatch.h"
 #include "base/without_exceptions.h"
+#include "render/environment.h"
 #include "render/scene_defaults.h"
 #include "render/settings_check.h"
 #include "scene/gltf_writer.h"
@@ -52,6 +56,11 @@ Result<void> check(const BakeSettings& s) {
         fmt::format("occlusion_distance: expected metres greater than 0, got {}", s.occlusion_distance));
   if (!(s.exposure >= 0 && std::isfinite(s.exposure)))
     return refuse(fmt::format("exposure: expected a factor of 0 (automatic) or more, got {}", s.exposure));
+  if (s.into == BakeInto::emissive && s.keep_lights)
+    return refuse(
+        "keep_lights: surfaces that show their light by emissive textures reflect none: lights cannot shine "
+        "on them as well. "
+        "Bake into light maps, or let the lights go");
   return render::check_options(s.options);
 }
 
@@ -70,6 +79,20 @@ Result<std::vector<bool>> choose_lights(const Scene& scene, const std::vector<st
     is_chosen[static_cast<std::size_t>(found - scene.lights.begin())] = true;
   }
   return is_chosen;
+}
+
+// Surfaces that show their light reflect no other.
+Result<void> check_lights_left(const Scene& scene, const std::vector<bool>& is_chosen) {
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    if (is_chosen[i] || !light.enabled || light.blend != BlendMode::add) continue;
+    return refuse(
+        fmt::format("light \"{}\" is on, and not among those to be baked: surfaces that show their light by "
+                    "emissive textures "
+                    "would reflect none of it. Bake it too, turn it off, or bake into light maps",
+                    light.name));
+  }
+  return {};
 }
 
 void warn_of_lights_left(Scene& scene) {
@@ -96,6 +119,10 @@ class Baker {
     Result<std::vector<bool>> chosen = choose_lights(scene_, settings_.lights);
     if (!chosen) return tl::unexpected(std::move(chosen.error()));
     is_baked_ = std::move(*chosen);
+    if (settings_.into == BakeInto::emissive) {
+      if (Result<void> checked = check_lights_left(scene_, is_baked_); !checked)
+        return tl::unexpected(std::move(checked.error()));
+    }
     begin(BakeStage::layout);
     prepare();
     Result<LightMapLayout> layout = lay_out(scene_, settings_);
@@ -182,14 +209,37 @@ class Baker {
     }
     if (settings_.interreflection) {
       begin(BakeStage::reflected_light);
-      if (Result<void> added = add_bounces(*frame, *rays, part_of_progress(direct_part, 1), files); !added)
+      if (Result<void> added = add_bounces(*frame, rays, part_of_progress(direct_part, 1), files); !added)
         return added;
     }
-    if (settings_.into == BakeInto::emissive)
-      report_.exposure = make_visible(*frame, triangles_,
-                                      {scene_.ambient, 1 / settings_.density, settings_.exposure}, pages_);
+    if (settings_.into == BakeInto::emissive) {
+      if (Result<void> shown = show(*frame, rays); !shown) return shown;
+    }
     continue_all();
     return {};
+  }
+
+  Result<void> show(const frame::Frame& frame, const std::shared_ptr<const trace::RayScene>& rays) {
+    const Result<std::optional<EnvironmentIrradiance>> environment = environment_irradiance();
+    if (!environment) return tl::unexpected(environment.error());
+    const double side = 1 / settings_.density;
+    const LuxelSurfaces surfaces(frame, rays, side / settings_.samples, set_);
+    const Showing showing = {scene_.ambient,
+                             *environment ? &**environment : nullptr,
+                             {settings_.samples, side},
+                             settings_.exposure};
+    report_.exposure = make_visible({frame, *rays, surfaces}, triangles_, showing, pages_);
+    return {};
+  }
+
+  [[nodiscard]] Result<std::optional<EnvironmentIrradiance>> environment_irradiance() const {
+    if (!scene_.environment) return std::optional<EnvironmentIrradiance>();
+    const Environment& environment = *scene_.environment;
+    if (environment.irradiance) return EnvironmentIrradiance(environment, *environment.irradiance);
+    const Result<image::EnvironmentMap> map = render::prepare_environment(
+        scene_, pool_, set_, settings_.options.environment_cache, settings_.options.environment_progress);
+    if (!map) return tl::unexpected(map.error());
+    return EnvironmentIrradiance(environment, map->irradiance);
   }
 
   // By the number of rays for each luxel.
@@ -208,13 +258,15 @@ class Baker {
     return [this, from, to](double done) { return progress_callback_(from + (to - from) * done); };
   }
 
-  Result<void> add_bounces(const frame::Frame& frame, const trace::RayScene& rays, const Progress& progress,
-                           const PartFiles& files) {
+  Result<void> add_bounces(const frame::Frame& frame, const std::shared_ptr<const trace::RayScene>& rays,
+                           const Progress& progress, const PartFiles& files) {
+    const double side = 1 / settings_.density;
+    const LuxelSurfaces surfaces(frame, rays, side, set_);
     std::vector<LitPage> lit;
     for (std::size_t i = 0; i < pages_.size(); ++i)
       lit.push_back({triangles_[i].get(), pages_[i].front.get(), pages_[i].back.get()});
     const Result<BouncedLight> bounced = add_bounced_light(
-        frame, rays, lit, 1 / settings_.density, *settings_.interreflection, pool_, progress, files);
+        frame, *rays, lit, surfaces, side, *settings_.interreflection, pool_, progress, files);
     if (!bounced) return tl::unexpected(bounced.error());
     report_.bounces = bounced->bounces;
     return {};
@@ -280,7 +332,7 @@ class Baker {
     fill_report();
     if (settings_.into == BakeInto::emissive) {
       show_as_emission(scene_, layout_, pages_);
-      scene_.ambient = glm::vec3(0);  // is in what surfaces show
+      expose(scene_, layout_, report_.exposure);
     } else {
       show_as_light_maps(scene_, layout_, pages_);
     }

@@ -70,7 +70,7 @@ void note_what_is_lost(Scene& scene, const std::vector<bool>& is_baked, const Ba
   const auto note = [&](std::string_view kind, const Names& names, std::string message) {
     if (!names.empty()) notes.push_back({{}, fmt::format("{} {}", kind, names.text()), std::move(message)});
   };
-  Names moving, films, reliefs, glass, mirrors, metals;
+  Names moving, films, reliefs, glass, mirrors, metals, photographs;
   const std::vector<bool> moves = moving_lights(scene);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
@@ -87,6 +87,11 @@ void note_what_is_lost(Scene& scene, const std::vector<bool>& is_baked, const Ba
       metals.add(material.name);
     }
   }
+  if (settings.into == BakeInto::emissive) {
+    for (const Photograph& photograph : scene.photographs) photographs.add(photograph.name);
+  }
+  note("photographs", photographs,
+       "are painted on surfaces by where these are looked at from: what is baked is without them");
   note("lights", moving,
        fmt::format("move or change: baked as they are at {:g} s, and as still as that",
                    settings.options.time));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "frame/place_lights.h"
+#include "laterna/material_lobes.h"
 
 namespace laterna::bake {
 namespace {
@@ -41,7 +42,9 @@ void blacken(Material& material) {
   material.metallic_roughness_texture = material.normal_texture = material.occlusion_texture = {};
   material.emissive = glm::vec3(1);
   material.layers.clear();
-  material.lobes = nullptr;
+  auto lobes = std::make_shared<MaterialLobes>();
+  lobes->specular.factor = 0;
+  material.lobes = std::move(lobes);
   material.relief = nullptr;
 }
 
@@ -111,6 +114,27 @@ void show_as_emission(Scene& scene, const LightMapLayout& layout, std::vector<Ba
       if (back < 0) continue;
       Primitive turned = turned_over(mesh.primitives[i], back);
       mesh.primitives.push_back(std::move(turned));
+    }
+  }
+}
+
+void expose(Scene& scene, const LightMapLayout& layout, float exposure) {
+  scene.ambient *= exposure;
+  if (scene.background) *scene.background *= exposure;
+  if (scene.environment) scene.environment->intensity *= double{exposure};
+  for (Light& light : scene.lights) {
+    light.intensity *= double{exposure};
+    if (light.lumens) *light.lumens *= double{exposure};
+  }
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    Material& material = scene.materials[m];
+    const bool is_baked = m >= layout.page_of_material.size() || layout.page_of_material[m] >= 0;
+    if (is_baked) continue;
+    if (material.unlit) {
+      const glm::vec3 shown = glm::min(glm::vec3(material.base_color) * exposure, 1.0F);
+      material.base_color = glm::vec4(shown, material.base_color.a);
+    } else {
+      material.emissive *= exposure;
     }
   }
 }

@@ -1,7 +1,5 @@
 #include "bake/bounced_light.h"
 
-#include "bake/luxel_surface.h"
-
 namespace laterna::bake {
 namespace {
 
@@ -11,7 +9,8 @@ constexpr int kAreaSamples = 4;
 // All luxels of all pages in one list, and where each is kept.
 class LuxelList {
  public:
-  LuxelList(const frame::Frame& frame, double luxel_side) : frame_(frame), luxel_side_(luxel_side) {}
+  LuxelList(const frame::Frame& frame, const LuxelSurfaces& surfaces, double luxel_side)
+      : frame_(frame), surfaces_(surfaces), luxel_side_(luxel_side) {}
 
   void add(const LitPage& page) {
     const glm::ivec2 tiles = page.triangles->tiles();
@@ -19,15 +18,8 @@ class LuxelList {
     for (int y = 0; y < tiles.y; ++y) {
       for (int x = 0; x < tiles.x; ++x) {
         find_middles(frame_, *page.triangles, {x, y}, {kAreaSamples, luxel_side_}, receivers);
-        for (const Receiver& receiver : receivers) {
-          const auto column = static_cast<std::size_t>(x * kTileSide) + receiver.luxel % kTileSide;
-          const auto row = static_cast<std::size_t>(y * kTileSide) + receiver.luxel / kTileSide;
-          const std::size_t place = 3 * (row * static_cast<std::size_t>(page.front->width()) + column);
-          const MattSurface surface = surface_at(frame_, receiver, luxel_side_);
-          add_side(receiver, surface, 1, page.front->values<float>().subspan(place, 3));
-          if (page.back != nullptr)
-            add_side(receiver, surface, -1, page.back->values<float>().subspan(place, 3));
-        }
+        add_side(receivers, false, {x, y}, *page.front);
+        if (page.back != nullptr) add_side(receivers, true, {x, y}, *page.back);
       }
     }
   }
@@ -41,15 +33,24 @@ class LuxelList {
   }
 
  private:
-  void add_side(const Receiver& receiver, const MattSurface& surface, float side, std::span<float> place) {
-    luxels_.push_back(
-        {receiver.position_ws, side * receiver.normal_ws, receiver.area, receiver.id, surface.reflectance});
-    direct_.emplace_back(place[0], place[1], place[2]);
-    exitance_.push_back(surface.exitance);
-    places_.push_back(place);
+  void add_side(std::span<const Receiver> receivers, bool of_back, glm::ivec2 tile, Image& picture) {
+    const std::vector<MattSurface> surfaces = surfaces_.find(receivers, of_back);
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+      const Receiver& receiver = receivers[i];
+      const auto column = static_cast<std::size_t>(tile.x * kTileSide) + receiver.luxel % kTileSide;
+      const auto row = static_cast<std::size_t>(tile.y * kTileSide) + receiver.luxel / kTileSide;
+      const std::size_t place = 3 * (row * static_cast<std::size_t>(picture.width()) + column);
+      const std::span<float> rgb = picture.values<float>().subspan(place, 3);
+      luxels_.push_back({receiver.position_ws, (of_back ? -1.0F : 1.0F) * receiver.normal_ws, receiver.area,
+                         receiver.id, surfaces[i].reflectance});
+      direct_.emplace_back(rgb[0], rgb[1], rgb[2]);
+      exitance_.push_back(surfaces[i].exitance);
+      places_.push_back(rgb);
+    }
   }
 
   const frame::Frame& frame_;
+  const LuxelSurfaces& surfaces_;
   double luxel_side_;
   std::vector<Luxel> luxels_;
   std::vector<glm::vec3> direct_, exitance_;
@@ -59,10 +60,11 @@ class LuxelList {
 }  // namespace
 
 Result<BouncedLight> add_bounced_light(const frame::Frame& frame, const trace::RayScene& rays,
-                                       std::span<const LitPage> pages, double luxel_side,
-                                       const RadiositySettings& settings, const TaskPool& pool,
-                                       const Progress& progress, const PartFiles& parts) {
-  LuxelList list(frame, luxel_side);
+                                       std::span<const LitPage> pages, const LuxelSurfaces& surfaces,
+                                       double luxel_side, const RadiositySettings& settings,
+                                       const TaskPool& pool, const Progress& progress,
+                                       const PartFiles& parts) {
+  LuxelList list(frame, surfaces, luxel_side);
   for (const LitPage& page : pages) list.add(page);
   Result<Interreflection> found =
       interreflect(frame, rays, list.luxels(), list.sources(), settings, pool, progress, parts);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "bake/luxel_receivers.h"
+#include "bake/luxel_surfaces.h"
 #include "bake/radiosity.h"
 #include "laterna/image.h"
 
@@ -24,8 +25,9 @@ struct BouncedLight {
 
 /// Adds to every luxel what reaches it from others. `luxel_side`: metres. `parts`: as of interreflect(). Errors: interreflect()'s.
 Result<BouncedLight> add_bounced_light(const frame::Frame& frame, const trace::RayScene& rays,
-                                       std::span<const LitPage> pages, double luxel_side,
-                                       const RadiositySettings& settings, const TaskPool& pool,
-                                       const Progress& progress, const PartFiles& parts);
+                                       std::span<const LitPage> pages, const LuxelSurfaces& surfaces,
+                                       double luxel_side, const RadiositySettings& settings,
+                                       const TaskPool& pool, const Progress& progress,
+                                       const PartFiles& parts);
 
 }  // namespace laterna::bake

@@ -231,6 +231,10 @@ void find_receivers(const frame::Frame& frame, const trace::RayScene& rays, cons
   found.take(rays, receivers);
 }
 
+Receiver receiver_on(const frame::Frame& frame, TriangleId id, FlatWeights weights) {
+  return Patch(frame, id).at(0, weights, 0, 0);
+}
+
 void find_middles(const frame::Frame& frame, const PageTriangles& page, glm::ivec2 tile,
                   const ReceiverSettings& settings, std::vector<Receiver>& receivers) {
   receivers.clear();

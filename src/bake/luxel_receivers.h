@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/flat_triangle.h"
 #include "frame/frame.h"
 #include "trace/ray_scene.h"
 
@@ -47,6 +48,9 @@ struct ReceiverSettings {
   int samples = 1;          ///< of a luxel's side
   double luxel_side = 0.1;  ///< metres
 };
+
+/// The point of a triangle with these weights of its corners; of no luxel, and standing for no area.
+Receiver receiver_on(const frame::Frame& frame, TriangleId id, FlatWeights weights);
 
 /// The receivers of one tile, by luxel. A luxel that holds none of the places where it is sampled has the point of a surface
 /// that is nearest to its middle, where one is within reach. No receiver lies within a fiftieth of a luxel of an edge of its

@@ -9,9 +9,10 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <tuple>
 
-#include "bake/luxel_surface.h"
+#include "bake/luxel_surfaces.h"
 #include "bake/own_frame.h"
 #include "bake/surface_cache.h"
 #include "base/flat_triangle.h"
@@ -134,12 +135,17 @@ struct QuakeWalk::Implementation {
   [[nodiscard]] bake::QuakePixel look(const glm::dmat4& world_from_image, glm::dvec2 pixel) const;
   [[nodiscard]] bake::CombinedSurface combine(const bake::QuakeSurface& surface, int size,
                                               QuakePicture picture) const;
+  [[nodiscard]] std::vector<std::uint8_t> paint(const bake::QuakeSurface& surface, double texels,
+                                                QuakePicture picture,
+                                                std::span<const bake::Receiver> receivers,
+                                                std::span<const glm::dvec2> places) const;
 
   Scene scene;
   QuakeSettings settings;
   TaskPool pool;
   std::unique_ptr<bake::OwnFrame> own;
-  std::unique_ptr<trace::RayScene> rays;
+  std::shared_ptr<const trace::RayScene> rays;
+  InstructionSet set = InstructionSet::scalar;
   std::map<const image::MipChain*, bake::IntensityMap> maps;
   std::vector<bake::QuakeSurface> surfaces;
   std::vector<std::uint32_t> surface_of;  // by triangle
@@ -148,11 +154,11 @@ struct QuakeWalk::Implementation {
 };
 
 Result<void> QuakeWalk::Implementation::load() {
-  const InstructionSet set = settings.options.instruction_set.value_or(best_instruction_set());
+  set = settings.options.instruction_set.value_or(best_instruction_set());
   Result<std::unique_ptr<bake::OwnFrame>> made = bake::make_frame(scene, settings.options.time, set, pool);
   if (!made) return tl::unexpected(std::move(made.error()));
   own = std::move(*made);
-  rays = std::make_unique<trace::RayScene>(own->frame);
+  rays = std::make_shared<const trace::RayScene>(own->frame);
   find_intensity_maps();
   if (maps.empty()) return refuse("the scene has no light maps: bake it first");
   find_surfaces();
@@ -251,7 +257,8 @@ bake::CombinedSurface QuakeWalk::Implementation::combine(const bake::QuakeSurfac
   made.height = std::max(1, static_cast<int>(std::ceil(extent.y)));
   const auto count = static_cast<std::size_t>(made.width) * static_cast<std::size_t>(made.height);
   std::vector<double> nearest(count, std::numeric_limits<double>::infinity());
-  std::vector<float> linear(3 * count, 0.0F);
+  std::vector<bake::Receiver> texel_receivers(count);
+  std::vector<glm::dvec2> places(count);  // in the light map
   for (const TriangleId id : surface.triangles) {
     const FlatTriangle flat(bake::luxels_of(own->frame, id, *surface.light));
     const glm::dvec2 most(made.width - 1, made.height - 1);
@@ -268,22 +275,33 @@ bake::CombinedSurface QuakeWalk::Implementation::combine(const bake::QuakeSurfac
         const auto texel = static_cast<std::size_t>(y * made.width + x);
         if (!(squared < nearest[texel])) continue;
         nearest[texel] = squared;
-        glm::vec3 color(1);
-        if (picture != QuakePicture::light_map) {
-          bake::Receiver receiver;
-          receiver.id = id;
-          receiver.weight_b = static_cast<float>(weights.b);
-          receiver.weight_c = static_cast<float>(weights.c);
-          color = bake::surface_at(own->frame, receiver, surface.luxel_side / texels).reflectance;
-        }
-        if (picture != QuakePicture::texture) color *= surface.light->look_up(at);
-        for (int c = 0; c < 3; ++c) linear[3 * texel + static_cast<std::size_t>(c)] = color[c];
+        texel_receivers[texel] = bake::receiver_on(own->frame, id, weights);
+        places[texel] = at;
       }
     }
   }
-  made.rgb.resize(linear.size());
-  image::encode_srgb(linear, made.rgb);
+  made.rgb = paint(surface, texels, picture, texel_receivers, places);
   return made;
+}
+
+// Texels that no triangle is near are black.
+std::vector<std::uint8_t> QuakeWalk::Implementation::paint(const bake::QuakeSurface& surface, double texels,
+                                                           QuakePicture picture,
+                                                           std::span<const bake::Receiver> receivers,
+                                                           std::span<const glm::dvec2> places) const {
+  std::vector<bake::MattSurface> colors;
+  if (picture != QuakePicture::light_map)
+    colors = bake::LuxelSurfaces(own->frame, rays, surface.luxel_side / texels, set).find(receivers, false);
+  std::vector<float> linear(3 * receivers.size(), 0.0F);
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    if (receivers[i].id == kNoTriangle) continue;
+    glm::vec3 color = colors.empty() ? glm::vec3(1) : colors[i].reflectance;
+    if (picture != QuakePicture::texture) color *= surface.light->look_up(places[i]);
+    for (std::size_t c = 0; c < 3; ++c) linear[3 * i + c] = color[static_cast<int>(c)];
+  }
+  std::vector<std::uint8_t> rgb(linear.size());
+  image::encode_srgb(linear, rgb);
+  return rgb;
 }
 
 QuakeWalk::QuakeWalk(std::unique_ptr<Implementation> implementation)

@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "bake/luxel_surface.h"
 #include "image/colour.h"
 #include "laterna/render.h"
 
@@ -14,29 +13,46 @@ namespace {
 
 constexpr float kInversePi = 0.31830989F;
 
-void show_page(const frame::Frame& frame, const PageTriangles& triangles, const Showing& showing,
+// What is seen of a surface on which `irradiance` falls.
+glm::vec3 seen(const MattSurface& surface, const Showing& showing, float openness,
+               const glm::vec3& irradiance) {
+  glm::vec3 from_all_sides = showing.ambient;
+  if (showing.environment != nullptr)
+    from_all_sides += showing.environment->on(surface.normal_ws) * kInversePi;
+  return surface.reflectance * (irradiance * kInversePi + from_all_sides * (openness * surface.openness)) +
+         surface.exitance * kInversePi;
+}
+
+// The mean over the receivers of each luxel, which come one after the other.
+void show_tile(std::span<const Receiver> receivers, std::span<const MattSurface> surfaces, glm::ivec2 tile,
+               const Showing& showing, const Image* occlusion, Image& picture) {
+  for (std::size_t first = 0, end = 0; first < receivers.size(); first = end) {
+    const std::uint32_t luxel = receivers[first].luxel;
+    const int column = tile.x * kTileSide + static_cast<int>(luxel % kTileSide);
+    const int row = tile.y * kTileSide + static_cast<int>(luxel / kTileSide);
+    const std::size_t place = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width()) +
+                                   static_cast<std::size_t>(column));
+    const std::span<float> rgb = picture.values<float>().subspan(place, 3);
+    const float openness = occlusion == nullptr ? 1 : occlusion->value(column, row, 0);
+    const glm::vec3 irradiance(rgb[0], rgb[1], rgb[2]);
+    glm::vec3 sum(0);
+    for (; end < receivers.size() && receivers[end].luxel == luxel; ++end)
+      sum += seen(surfaces[end], showing, openness, irradiance);
+    for (int c = 0; c < 3; ++c) rgb[static_cast<std::size_t>(c)] = sum[c] / static_cast<float>(end - first);
+  }
+}
+
+void show_page(const SeenScene& scene, const PageTriangles& triangles, const Showing& showing,
                BakedPage& page) {
   std::vector<Receiver> receivers;
   for (int y = 0; y < triangles.tiles().y; ++y) {
     for (int x = 0; x < triangles.tiles().x; ++x) {
-      find_middles(frame, triangles, {x, y}, {1, showing.luxel_side}, receivers);
-      for (const Receiver& receiver : receivers) {
-        const int column = x * kTileSide + static_cast<int>(receiver.luxel % kTileSide);
-        const int row = y * kTileSide + static_cast<int>(receiver.luxel / kTileSide);
-        const MattSurface surface = surface_at(frame, receiver, showing.luxel_side);
-        const float openness = page.occlusion == nullptr ? 1 : page.occlusion->value(column, row, 0);
-        const std::size_t place =
-            3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(triangles.size().x) +
-                 static_cast<std::size_t>(column));
-        for (Image* picture : {page.front.get(), page.back.get()}) {
-          if (picture == nullptr) continue;
-          const std::span<float> rgb = picture->values<float>().subspan(place, 3);
-          for (int c = 0; c < 3; ++c) {
-            float& value = rgb[static_cast<std::size_t>(c)];
-            value = surface.reflectance[c] * (value * kInversePi + showing.ambient[c] * openness) +
-                    surface.exitance[c] * kInversePi;
-          }
-        }
+      find_receivers(scene.frame, scene.rays, triangles, {x, y}, showing.receivers, receivers);
+      for (const bool of_back : {false, true}) {
+        Image* const picture = (of_back ? page.back : page.front).get();
+        if (picture == nullptr) continue;
+        show_tile(receivers, scene.surfaces.find(receivers, of_back), {x, y}, showing, page.occlusion.get(),
+                  *picture);
       }
     }
   }
@@ -70,10 +86,10 @@ std::shared_ptr<Image> encoded(const Image& linear, float exposure) {
 
 }  // namespace
 
-float make_visible(const frame::Frame& frame, std::span<const std::unique_ptr<PageTriangles>> triangles,
+float make_visible(const SeenScene& scene, std::span<const std::unique_ptr<PageTriangles>> triangles,
                    const Showing& showing, std::span<BakedPage> pages) {
   for (std::size_t page = 0; page < pages.size(); ++page)
-    show_page(frame, *triangles[page], showing, pages[page]);
+    show_page(scene, *triangles[page], showing, pages[page]);
   const float exposure = showing.exposure > 0 ? showing.exposure : exposure_for(pages);
   for (BakedPage& page : pages) {
     page.front = encoded(*page.front, exposure);

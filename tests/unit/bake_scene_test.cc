@@ -19,8 +19,6 @@ namespace {
 
 using namespace reference;
 
-constexpr double kPi64 = 3.14159265358979;
-
 Light lamp_of(double candela) {
   Light light;
   light.name = "lamp";
@@ -130,35 +128,6 @@ TEST(BakedThings, TexturesOfTheSecondCoordinatesStay) {
       EXPECT_NE(warnings_of(*not_baked).find("use both sets of texture coordinates"), std::string::npos);
     }
   }
-}
-
-// Radiance of matt surfaces, ρ E / π, times the exposure, on both sides, in a file without our extensions.
-TEST(BakedThings, EmissiveTexturesHoldWhatIsSeen) {
-  const TemporaryFolder folder;
-  Scene scene = lit_floor();
-  scene.materials[0].double_sided = true;
-  scene.ambient = glm::vec3(0.05F);
-  BakeSettings settings;
-  settings.into = BakeInto::emissive;
-  settings.exposure = 0.8F;
-  const Result<BakedScene> baked = bake_light(scene, settings);
-  ASSERT_TRUE(baked);
-  EXPECT_TRUE(baked->scene.lights.empty());
-  ASSERT_TRUE(write_scene(baked->scene, folder.path() / "baked.gltf"));
-  const Result<Scene> read = load_scene({folder.path() / "baked.gltf"});
-  ASSERT_TRUE(read);
-  for (const Material& material : read->materials) EXPECT_FALSE(material.light_map.front.is_set());
-  const Renderer renderer = make_renderer(*read);
-  RenderSettings picture = test_settings(9, 9);
-  picture.shading = ShadingModel::pbr;
-  for (const double side : {1.0, -1.0}) {
-    const LayeredImage seen = render(renderer, look({0, 3 * side, 0}, {0, 0, 0}, 5, 1, {0, 0, -1}), picture);
-    const double irradiance = side > 0 ? 10.0 / 4 : 0;
-    EXPECT_NEAR(at(seen, "R", 4, 4), 0.8 * 0.5 * (irradiance / kPi64 + 0.05), 0.005);
-    EXPECT_NEAR(at(seen, "B", 4, 4), 0.8 * 0.2 * (irradiance / kPi64 + 0.05), 0.005);
-  }
-  settings.exposure = -1;
-  EXPECT_FALSE(bake_light(scene, settings));
 }
 
 // One note for each kind of thing.
