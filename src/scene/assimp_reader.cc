@@ -28,7 +28,9 @@
 namespace laterna {
 namespace {
 
-std::string lower_case_ending(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
+std::string lower_case_ending(const std::filesystem::path& file) {
+  return lower_case(file.extension().string());
+}
 
 glm::dmat4 to_matrix(const aiMatrix4x4& m) {
   return {glm::dvec4(m.a1, m.b1, m.c1, 0), glm::dvec4(m.a2, m.b2, m.c2, 0), glm::dvec4(m.a3, m.b3, m.c3, 0),

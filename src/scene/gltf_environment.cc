@@ -127,7 +127,8 @@ std::optional<Environment> read_environment(const JsonDocument& json, Textures& 
   const JsonValue* chosen = json.root().find("scene");
   const double number = chosen == nullptr ? 0 : chosen->number;
   if (!(number >= 0 && number < static_cast<double>(scenes->children.size()))) return std::nullopt;
-  const JsonValue* use = find_extension(scenes->children[static_cast<std::size_t>(number)], kImageBasedExtension);
+  const JsonValue* use =
+      find_extension(scenes->children[static_cast<std::size_t>(number)], kImageBasedExtension);
   if (use == nullptr) return std::nullopt;
   const JsonValue* extension = find_extension(json.root(), kImageBasedExtension);
   const JsonValue* lights =

@@ -17,7 +17,6 @@ namespace {
 
 using namespace reference;
 
-
 /// A latlong picture of a function of the direction.
 template <class Radiance>
 std::shared_ptr<const Image> latlong(int height, Radiance radiance) {
@@ -82,7 +81,8 @@ Errors mirror_errors(const Renderer& renderer, const glm::dvec3& eye, const glm:
                        n = glm::normalize(value(image, "N.", "XYZ", x, y));
       const glm::dvec3 reflected = glm::reflect(glm::normalize(p - eye), n);
       const glm::dvec3 seen = glm::normalize(value(image, "", "RGB", x, y) * 2.0 - 1.0);
-      const double error = std::acos(std::clamp(glm::dot(seen, truth(p, reflected)), -1.0, 1.0)) * 180 / std::numbers::pi;
+      const double error =
+          std::acos(std::clamp(glm::dot(seen, truth(p, reflected)), -1.0, 1.0)) * 180 / std::numbers::pi;
       errors.mean += error;
       errors.largest = std::max(errors.largest, error);
       ++errors.count;
@@ -386,7 +386,8 @@ TEST(SpecularMap, SplitSumIsTheIntegralOfTheReflectance) {
       const glm::dvec3 h = glm::normalize(l + v);
       const double t = h.z * h.z * (a2 - 1) + 1, distribution = a2 / (std::numbers::pi * t * t);
       const auto g1 = [&](double c) { return 2 * c / (c + std::sqrt(a2 + (1 - a2) * c * c)); };
-      const double f = distribution * g1(n_l) * g1(n_v) / (4 * n_l * n_v) * n_l * 2 * std::numbers::pi / (kGrid * kGrid);
+      const double f =
+          distribution * g1(n_l) * g1(n_v) / (4 * n_l * n_v) * n_l * 2 * std::numbers::pi / (kGrid * kGrid);
       const double fresnel = std::pow(1 - glm::dot(v, h), 5);
       scale += f * (1 - fresnel);
       bias += f * fresnel;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 
 #include "reference/picture_probes.h"
 #include "reference/projector_scenes.h"
@@ -13,7 +14,6 @@ namespace laterna {
 namespace {
 
 using namespace reference;
-
 
 Scene example(const char* scene, const char* rig) {
   const std::filesystem::path folder = LATERNA_SOURCE_DIR "/examples/scenes";

@@ -418,7 +418,8 @@ TEST(MitLecture20Blending, ATextureMayBeThereOnce) {
   const LayeredImage image = picture_of(std::move(scene));
   for (int y = 0; y < kPictureSide; ++y) {
     for (int x = 0; x < kPictureSide; ++x) {
-      const bool is_on = x >= kPictureSide / 2 && x < kPictureSide * 3 / 4 && y >= kPictureSide / 4 && y < kPictureSide / 2;
+      const bool is_on =
+          x >= kPictureSide / 2 && x < kPictureSide * 3 / 4 && y >= kPictureSide / 4 && y < kPictureSide / 2;
       EXPECT_EQ(at(image, "G", x, y), is_on ? 1 : 0.25F) << x << ' ' << y;
     }
   }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "laterna/light_color.h"

@@ -16,7 +16,6 @@ using bake::Interreflection;
 using reference::LitRoom;
 using reference::LuxelRoom;
 
-
 RadiositySettings one_bounce(int rays) { return {rays, 1, 0}; }
 
 // Row 106. Every surface gives off 1 and reflects half: B = 1 + B / 2.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "frame/relief_field.h"
 #include "laterna/material_lobes.h"
@@ -16,7 +17,6 @@ namespace laterna {
 namespace {
 
 using namespace reference;
-
 
 int add_heights(Scene& scene, int width, int height, const std::function<double(int, int)>& height_at) {
   return add_linear_picture(scene, width, height,
@@ -156,8 +156,8 @@ TEST(Relief, RepeatsHoweverFarAway) {
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirror}) {
     const auto draw = [&](float tiles, bool is_flat = false) {
       Scene scene;
-      const int heights =
-          add_heights(scene, 2048, 1, [](int x, int) { return 0.5 + 0.5 * std::cos(x * std::numbers::pi / 1024); });
+      const int heights = add_heights(
+          scene, 2048, 1, [](int x, int) { return 0.5 + 0.5 * std::cos(x * std::numbers::pi / 1024); });
       add_relief_floor(scene, heights, 0.1);
       Relief relief = *scene.materials.back().relief;
       relief.texture.uv_from_mesh_uv = {1, 0, tiles, 0, 1, 0};
