@@ -38,9 +38,9 @@ bench: ## how the cost of a frame grows, and every kernel, as tables; QUICK=1 fo
 	@scripts/bench.sh $(if $(QUICK),--quick)
 
 lint: ## clang-format and clang-tidy
-	@scripts/install-deps.sh lint
-	@$(call configure,release)
-	@scripts/lint.sh build/release
+	@scripts/install-deps.sh bench lint
+	@$(call configure,lint)
+	@scripts/lint.sh build/lint
 
 format: ## let clang-format rewrite the sources
 	@scripts/install-deps.sh lint

@@ -1,8 +1,11 @@
-# laterna_room(NAME LINK target... PRECOMPILE header...): one room of src/ as an object library.
+include(cmake/compile_together.cmake)
+
+# laterna_room(NAME [SEPARATE] LINK target... PRECOMPILE header...): one room of src/ as an object library. SEPARATE: its
+# files have, by design, functions of the same names.
 # Kernels (*.simd.cc) are compiled once per instruction set by Highway.
 set(LATERNA_ROOMS "")
 macro(laterna_room name)
-  cmake_parse_arguments(ROOM "" "" "LINK;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ROOM "SEPARATE" "" "LINK;PRECOMPILE" ${ARGN})
   file(GLOB room_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cc)
   if(room_sources)
     add_library(room_${name} OBJECT ${room_sources})
@@ -23,6 +26,9 @@ macro(laterna_room name)
     if(ROOM_PRECOMPILE AND room_size GREATER 20 AND NOT CCACHE AND NOT LATERNA_SANITIZE)
       target_precompile_headers(room_${name} PRIVATE ${ROOM_PRECOMPILE})
       set_source_files_properties(${room_kernels} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endif()
+    if(NOT ROOM_SEPARATE)
+      compile_together(room_${name} APART ${room_kernels})
     endif()
     list(APPEND LATERNA_ROOMS ${name})
   else()

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <memory>
 
+#include "bake/primitive_corners.h"
 #include "laterna/material_lobes.h"
 #include "laterna/relief.h"
 
 namespace laterna::bake {
 namespace {
-
-std::uint32_t vertex_of(const Primitive& p, std::size_t corner) {
-  return p.indices.empty() ? static_cast<std::uint32_t>(corner) : p.indices[corner];
-}
 
 template <class Use>
 void for_each_texture(Material& material, Use use) {

@@ -14,6 +14,7 @@
 #include "bake/charts.h"
 #include "bake/laid_out_surfaces.h"
 #include "bake/own_meshes.h"
+#include "bake/primitive_corners.h"
 #include "base/refuse.h"
 #include "laterna/material_lobes.h"
 #include "laterna/relief.h"
@@ -33,13 +34,6 @@ struct Piece {
   glm::dvec2 from_flat{1};  // luxels per unit of the chart's plane
   bool is_double_sided = false;
 };
-
-std::uint32_t vertex_of(const Primitive& p, std::size_t corner) {
-  return p.indices.empty() ? static_cast<std::uint32_t>(corner) : p.indices[corner];
-}
-std::size_t corner_count(const Primitive& p) {
-  return p.indices.empty() ? p.positions.size() : p.indices.size();
-}
 
 std::vector<glm::dvec3> corners_of(const Primitive& primitive, const glm::dmat4& world_from_mesh) {
   std::vector<glm::dvec3> corners;

@@ -18,6 +18,7 @@
 #include "scene/assimp_files.h"
 #include "scene/assimp_materials.h"
 #include "scene/fault_list.h"
+#include "scene/lower_case.h"
 #include "scene/md2_frames.h"
 #include "scene/ply_header.h"
 #include "scene/spelling.h"
@@ -28,9 +29,7 @@ namespace laterna {
 namespace {
 
 std::string lower_case_ending(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return ending;
+  return lower_case(file.extension().string());
 }
 
 glm::dmat4 to_matrix(const aiMatrix4x4& m) {

@@ -14,7 +14,7 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::string_view kExtension = "EXT_lights_image_based";
+constexpr std::string_view kImageBasedExtension = "EXT_lights_image_based";
 
 class ImageBasedLight {
  public:
@@ -127,9 +127,10 @@ std::optional<Environment> read_environment(const JsonDocument& json, Textures& 
   const JsonValue* chosen = json.root().find("scene");
   const double number = chosen == nullptr ? 0 : chosen->number;
   if (!(number >= 0 && number < static_cast<double>(scenes->children.size()))) return std::nullopt;
-  const JsonValue* use = find_extension(scenes->children[static_cast<std::size_t>(number)], kExtension);
+  const JsonValue* use =
+      find_extension(scenes->children[static_cast<std::size_t>(number)], kImageBasedExtension);
   if (use == nullptr) return std::nullopt;
-  const JsonValue* extension = find_extension(json.root(), kExtension);
+  const JsonValue* extension = find_extension(json.root(), kImageBasedExtension);
   const JsonValue* lights =
       extension == nullptr ? nullptr : JsonObject(json, *extension, faults).array("lights");
   JsonObject reference(json, *use, faults);

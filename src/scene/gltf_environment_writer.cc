@@ -5,7 +5,7 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr const char* kExtension = "EXT_lights_image_based";
+constexpr const char* kImageBasedExtension = "EXT_lights_image_based";
 constexpr const char* kPlace = "environment";
 
 void warn_of_rest(const Environment& environment, Document& document) {
@@ -46,8 +46,8 @@ Result<void> write_environment(const Scene& scene, PictureWriter& pictures, Docu
   light["irradianceCoefficients"] = std::move(irradiance);
   light["specularImageSize"] = side;
   light["specularImages"] = std::move(levels);
-  document.extension(kExtension)["lights"] = Json::array({std::move(light)});
-  document.extend(document.at("scenes", 0), kExtension, {{"light", 0}});
+  document.extension(kImageBasedExtension)["lights"] = Json::array({std::move(light)});
+  document.extend(document.at("scenes", 0), kImageBasedExtension, {{"light", 0}});
   warn_of_rest(environment, document);
   return {};
 }

@@ -11,20 +11,20 @@
 namespace laterna::gltf {
 namespace {
 
-constexpr std::string_view kExtension = "EXT_lights_ies";
+constexpr std::string_view kIesExtension = "EXT_lights_ies";
 constexpr std::string_view kMimeType = "application/x-ies-lm-63";
 
 }  // namespace
 
 Lamps::Lamps(const JsonDocument& json, Buffers& buffers, std::filesystem::path folder, FaultList& faults)
     : json_(json), buffers_(buffers), folder_(std::move(folder)), faults_(faults) {
-  const JsonValue* extension = find_extension(json.root(), kExtension);
+  const JsonValue* extension = find_extension(json.root(), kIesExtension);
   if (extension != nullptr) list_ = JsonObject(json, *extension, faults).array("lights");
   if (list_ != nullptr) profiles_.resize(list_->children.size());
 }
 
 std::optional<Light> Lamps::read(const JsonValue& node, LightExtensions& extensions) {
-  const JsonValue* extension = find_extension(node, kExtension);
+  const JsonValue* extension = find_extension(node, kIesExtension);
   if (extension == nullptr) return std::nullopt;
   JsonObject object(json_, *extension, faults_);
   object.require("light");

@@ -9,7 +9,7 @@ namespace {
 using P = AnimatedProperty;
 using Lobes = MaterialLobes;
 
-constexpr float kEndless = std::numeric_limits<float>::infinity();
+constexpr float kEndlessDistance = std::numeric_limits<float>::infinity();
 // Shorter than any light's wave; its inverse is finite in single precision.
 constexpr float kLeastDistance = 1e-9F;
 constexpr float kMaxThickness = 1e9F;
@@ -56,7 +56,7 @@ constexpr LobeFactor kFactors[] = {
     {P::thickness, kVolume, "thicknessFactor", "volume.thickness", 1, 0, kMaxThickness,
      [](const Lobes& l) { return &l.volume.thickness; }},
     {P::attenuation_distance, kVolume, "attenuationDistance", "volume.attenuation_distance", 1,
-     kLeastDistance, kEndless, [](const Lobes& l) { return &l.volume.attenuation_distance; }},
+     kLeastDistance, kEndlessDistance, [](const Lobes& l) { return &l.volume.attenuation_distance; }},
     {P::attenuation_color, kVolume, "attenuationColor", "volume.attenuation_color", 3, 0, 1,
      [](const Lobes& l) -> const float* { return &l.volume.attenuation_color.x; }},
 };

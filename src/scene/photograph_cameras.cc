@@ -7,17 +7,13 @@
 
 #include "base/file_io.h"
 #include "laterna/photograph_files.h"
+#include "scene/lower_case.h"
 #include "scene/opencv_yaml.h"
 
 namespace laterna {
 namespace {
 
 using Path = std::filesystem::path;
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
-}
 
 enum class Kind : std::uint8_t { unknown, colmap, gltf, cam, json, yaml };
 

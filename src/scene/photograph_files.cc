@@ -13,6 +13,7 @@
 #include "base/task_pool.h"
 #include "base/without_exceptions.h"
 #include "scene/lens_undistortion.h"
+#include "scene/lower_case.h"
 #include "scene/photograph_cameras.h"
 #include "scene/spelling.h"
 
@@ -29,11 +30,6 @@ constexpr double kRoundedPixels = 1.5;
 constexpr std::array<std::string_view, 14> kEndings = {".png", ".jpg", ".jpeg", ".bmp", ".tga",
                                                        ".gif", ".ppm", ".pgm",  ".pnm", ".pbm",
                                                        ".hdr", ".exr", ".pfm",  ".jpe"};
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
-}
 
 bool is_picture(const Path& file) {
   return std::find(kEndings.begin(), kEndings.end(), lower_case(file.extension().string())) != kEndings.end();

@@ -106,9 +106,10 @@ TEST(EnvironmentLight, IsTheSameOnEveryInstructionSetAndNumberOfThreads) {
       RenderSettings settings = test_settings(70, 70);
       settings.shading = model;
       settings.samples = 2;
-      const LayeredImage scalar = render(make_renderer(scene, 1, InstructionSet::scalar), kView, settings);
+      const LayeredImage scalar =
+          reference::render(make_renderer(scene, 1, InstructionSet::scalar), kView, settings);
       for (const InstructionSet set : supported_instruction_sets()) {
-        const LayeredImage image = render(make_renderer(scene, 3, set), kView, settings);
+        const LayeredImage image = reference::render(make_renderer(scene, 3, set), kView, settings);
         for (const char* name : {"R", "G", "B", "A"})
           EXPECT_EQ(image.find(name)->values, scalar.find(name)->values) << name_of(set) << " " << name;
       }
@@ -123,7 +124,7 @@ TEST(EnvironmentLight, IsTheSplitSum) {
   RenderSettings settings = test_settings(64, 64);
   settings.shading = ShadingModel::pbr;
   settings.layers = {Layer::position, Layer::normal, Layer::object};
-  const LayeredImage picture = render(make_renderer(scene), kView, settings);
+  const LayeredImage picture = reference::render(make_renderer(scene), kView, settings);
   const Image& sky = *scene.pictures[0].pixels;
   std::vector<glm::vec3> texels;
   for (std::size_t i = 0; i < sky.values<float>().size(); i += 3)

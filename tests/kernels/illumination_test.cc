@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 
+#include "kernels/store_vector.h"
 #include "reference/reflection.h"
 #include "reference/texture.h"
 
@@ -24,11 +25,6 @@ using shadow::SampleArray;
 glm::dvec3 vector_at(const SampleArray<float>& x, const SampleArray<float>& y, const SampleArray<float>& z,
                      std::size_t i) {
   return {x[i], y[i], z[i]};
-}
-
-void store(const glm::dvec3& v, SampleArray<float>& x, SampleArray<float>& y, SampleArray<float>& z,
-           std::size_t i) {
-  x[i] = static_cast<float>(v.x), y[i] = static_cast<float>(v.y), z[i] = static_cast<float>(v.z);
 }
 
 glm::dvec3 random_direction(std::mt19937& random) {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "kernels/store_vector.h"
 #include "kernels/vector_functions.h"
 #include "reference/layered_material.h"
 
@@ -17,11 +18,6 @@ namespace {
 using shadow::kMaxGroups;
 using shadow::kMaxSamples;
 using shadow::SampleArray;
-
-void store(const glm::dvec3& v, SampleArray<float>& x, SampleArray<float>& y, SampleArray<float>& z,
-           std::size_t i) {
-  x[i] = static_cast<float>(v.x), y[i] = static_cast<float>(v.y), z[i] = static_cast<float>(v.z);
-}
 
 const SheenAlbedo& sheen_table() {
   static const SheenAlbedo table = make_sheen_albedo(TaskPool(1));

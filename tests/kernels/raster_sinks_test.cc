@@ -33,7 +33,7 @@ struct Sinks {
   float start = std::numeric_limits<float>::quiet_NaN();  // NaN: the view's far plane
 };
 
-Picture draw(const frame::Frame& frame, const RasterView& view, Sinks sinks) {
+Picture draw_sinks(const frame::Frame& frame, const RasterView& view, Sinks sinks) {
   const TaskPool pool(1);
   sinks.options.pixels = {0, 0, view.width, view.height};
   sinks.options.instruction_set = sinks.set;
@@ -127,7 +127,7 @@ TEST_P(RasterSinks, OrthographicTrianglesLieWhereTheirRaysMeetThem) {
     const glm::vec3 a(place(random), place(random), place(random)),
         b(place(random), place(random), place(random)), c(place(random), place(random), place(random));
     const auto owned = one_triangle(a, b, c);
-    const Picture picture = draw(owned.frame, raster, sinks());
+    const Picture picture = draw_sinks(owned.frame, raster, sinks());
     // Corners are snapped to 1/256 pixel: weights change by that over the triangle's height in pixels.
     const glm::dvec3 n = glm::cross(glm::dvec3(b - a), glm::dvec3(c - a));
     const double edge_on = std::abs(glm::dot(n, view.pose.forward_ws())) / glm::length(n);
@@ -160,7 +160,7 @@ TEST_P(RasterSinks, OneTriangleFromTheLensToNineKilometresKeepsItsDepth) {
     View view = reference::look({0, 0, 0}, {0, 0, -1}, 60, 1);
     view.projection = {false, -0.5 * height, 0.5 * height, -0.01 - height, -0.01, 0.1, 1e4};
     const RasterView raster(view, 256, 256);
-    const Picture picture = draw(owned.frame, raster, sinks());
+    const Picture picture = draw_sinks(owned.frame, raster, sinks());
     int covered = 0;
     for (int y = 0; y < 256; ++y) {
       for (int x = 0; x < 256; ++x) {
@@ -185,7 +185,7 @@ TEST_P(RasterSinks, PlatesOneCentimetreApartAtNineKilometresAreToldApart) {
   reference::add_object(scene, "before", reference::wall(5000, 5000, -9000.0F));
   const auto owned = reference::make_frame(std::move(scene));
   const RasterView raster(reference::look({0, 0, 0}, {0, 0, -1}, 50, 1, {0, 1, 0}, 0.1, 1e4), 128, 128);
-  for (const TriangleId id : draw(owned.frame, raster, sinks()).ids) {
+  for (const TriangleId id : draw_sinks(owned.frame, raster, sinks()).ids) {
     ASSERT_NE(id, kNoTriangle);
     ASSERT_EQ(owned.frame.object_names[owned.frame.clusters[cluster_of(id)].object], "before");
   }
@@ -198,7 +198,7 @@ TEST_P(RasterSinks, NothingIsDrawnBeforeTheNearOrBeyondTheFarPlane) {
     View view = reference::look({0, 1, 2}, {0, 0.5, -1}, 70, 1, {0, 1, 0}, 3, 12);
     if (is_orthographic) view.projection = Projection::orthographic(4, 4, 3, 12);
     const RasterView raster(view, 120, 120);
-    const Picture picture = draw(owned.frame, raster, sinks());
+    const Picture picture = draw_sinks(owned.frame, raster, sinks());
     int seen = 0;
     for (int y = 0; y < 120; ++y) {
       for (int x = 0; x < 120; ++x) {
@@ -238,11 +238,11 @@ TEST_P(RasterSinks, CutOutsAreAskedSampleBySample) {
   scene.materials.back().alpha_mode = AlphaMode::mask;
   const auto owned = reference::make_frame(std::move(scene));
   const RasterView raster(reference::look({0, 0, 3}, {0, 0, 0}, 40, 1), 128, 128);
-  const Picture whole = draw(owned.frame, raster, sinks());
+  const Picture whole = draw_sinks(owned.frame, raster, sinks());
   const CheckerCut cut;
   Sinks cutting = sinks();
   cutting.cut = &cut;
-  const Picture picture = draw(owned.frame, raster, cutting);
+  const Picture picture = draw_sinks(owned.frame, raster, cutting);
   int leaf = 0;
   for (int y = 0; y < 128; ++y) {
     for (int x = 0; x < 128; ++x) {
@@ -268,7 +268,7 @@ TEST_P(RasterSinks, OnlyClustersWithTheRequiredFlagsAreDrawn) {
   const auto object_seen = [&](std::uint32_t flags) {
     Sinks s = sinks();
     s.options.required_flags = flags;
-    const Picture picture = draw(owned.frame, raster, s);
+    const Picture picture = draw_sinks(owned.frame, raster, s);
     return owned.frame.clusters[cluster_of(picture.ids[0])].object;
   };
   EXPECT_EQ(object_seen(0), 0U);
@@ -285,7 +285,7 @@ TEST_P(RasterSinks, BlendedSurfacesAreFragmentsOrAreDrawnAsCutOuts) {
   scene.materials[1].alpha_mode = scene.materials[2].alpha_mode = AlphaMode::blend;
   const auto owned = reference::make_frame(std::move(scene));
   const RasterView raster(reference::look({0, 0, 4}, {0, 0, 0}, 40, 1), 64, 64);
-  const Picture picture = draw(owned.frame, raster, sinks());
+  const Picture picture = draw_sinks(owned.frame, raster, sinks());
   std::set<std::pair<std::uint32_t, std::uint32_t>> found;
   for (const Fragment& f : picture.fragments) {
     const std::uint32_t object = owned.frame.clusters[cluster_of(f.id)].object;
@@ -301,7 +301,7 @@ TEST_P(RasterSinks, BlendedSurfacesAreFragmentsOrAreDrawnAsCutOuts) {
   }
   Sinks s = sinks();
   s.options.excluded_flags = kAlphaBlend;
-  const Picture without = draw(owned.frame, raster, s);
+  const Picture without = draw_sinks(owned.frame, raster, s);
   EXPECT_TRUE(without.fragments.empty());
   EXPECT_EQ(without.ids, picture.ids);
 }
@@ -311,9 +311,9 @@ TEST_P(RasterSinks, DrawingGoesOnFromTheDepthThatIsThere) {
   const RasterView raster(reference::look({0, 0, 4}, {0, 0, 0}, 40, 1), 64, 64);
   Sinks s = sinks();
   s.start = 1 / 3.9F;  // something nearer is there already
-  for (const TriangleId id : draw(owned.frame, raster, s).ids) EXPECT_EQ(id, kNoTriangle);
+  for (const TriangleId id : draw_sinks(owned.frame, raster, s).ids) EXPECT_EQ(id, kNoTriangle);
   s.start = 1 / 4.1F;
-  for (const TriangleId id : draw(owned.frame, raster, s).ids) EXPECT_EQ(id, 0U);
+  for (const TriangleId id : draw_sinks(owned.frame, raster, s).ids) EXPECT_EQ(id, 0U);
 }
 
 TEST_P(RasterSinks, GivesTheSameBitsAsScalarInAnOrthographicView) {
@@ -329,7 +329,8 @@ TEST_P(RasterSinks, GivesTheSameBitsAsScalarInAnOrthographicView) {
   View view = reference::look({4, 5, 6}, {0, 0, 0}, 40, 1);
   view.projection = Projection::orthographic(4, 4, 0.1, 20);
   const RasterView raster(view, 200, 150);
-  const Picture expected = draw(owned.frame, raster, {}), got = draw(owned.frame, raster, sinks());
+  const Picture expected = draw_sinks(owned.frame, raster, {}),
+                got = draw_sinks(owned.frame, raster, sinks());
   EXPECT_EQ(got.depth, expected.depth);
   EXPECT_EQ(got.ids, expected.ids);
   ASSERT_EQ(got.fragments.size(), expected.fragments.size());

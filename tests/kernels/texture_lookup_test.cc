@@ -17,9 +17,9 @@ using image::MipUse;
 
 constexpr std::size_t kProbes = 1024;
 
-struct Probes {
+struct LookupPlaces {
   AlignedVector<float> u, v, du_dx, dv_dx, du_dy, dv_dy;
-  Probes() {
+  LookupPlaces() {
     for (AlignedVector<float>* a : {&u, &v, &du_dx, &dv_dx, &du_dy, &dv_dy}) a->assign(kProbes, 0.0F);
   }
   [[nodiscard]] reference::TextureProbe at(std::size_t i) const {
@@ -41,7 +41,7 @@ struct Texture {
   int anisotropy = 1;
 };
 
-Samples look_up(const Texture& t, const Probes& p, InstructionSet set) {
+Samples look_up(const Texture& t, const LookupPlaces& p, InstructionSet set) {
   Samples s;
   look_up_texture_for(set)(
       {&t.chain, t.sampler, t.anisotropy, p.u, p.v, p.du_dx, p.dv_dx, p.du_dy, p.dv_dy, s.r, s.g, s.b, s.a});
@@ -60,11 +60,11 @@ Image noise(int width, int height, int channels, PixelType type, Transfer transf
 
 // Footprints of all sizes and shapes, from 1/16 of a texel to more than the picture, anywhere in and around
 // it.
-Probes random_probes(const MipChain& chain, unsigned seed) {
+LookupPlaces random_probes(const MipChain& chain, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> place(-2.5F, 3.5F), log_size(-4, 8), log_ratio(0, 5),
       angle(0, 6.2831853F);
-  Probes p;
+  LookupPlaces p;
   for (std::size_t i = 0; i < kProbes; ++i) {
     p.u[i] = place(random);
     p.v[i] = place(random);
@@ -82,7 +82,8 @@ Probes random_probes(const MipChain& chain, unsigned seed) {
   return p;
 }
 
-void expect_as_reference(const Texture& t, const Probes& p, InstructionSet set, const std::string& what) {
+void expect_as_reference(const Texture& t, const LookupPlaces& p, InstructionSet set,
+                         const std::string& what) {
   const Samples got = look_up(t, p, set);
   int ambiguous = 0;
   for (std::size_t i = 0; i < kProbes; ++i) {
@@ -193,7 +194,7 @@ TEST_P(TextureLookup, CoordinatesThatAreNoPlaceReadATexel) {
     for (const int anisotropy : {1, 16}) {
       t.sampler.wrap_u = t.sampler.wrap_v = wrap;
       t.anisotropy = anisotropy;
-      Probes p;
+      LookupPlaces p;
       for (AlignedVector<float>* a : {&p.u, &p.v, &p.du_dx, &p.dv_dx, &p.du_dy, &p.dv_dy}) {
         for (float& value : *a) value = wild[random() % std::size(wild)];
       }
@@ -214,7 +215,7 @@ TEST_P(TextureLookup, GivesTheSameBitsAsScalar) {
       image::make_mip_chain(noise(45, 64, 4, PixelType::u8, Transfer::srgb, 5), MipUse::colour_with_alpha);
   for (const int anisotropy : {1, 2, 8, 16}) {
     t.anisotropy = anisotropy;
-    const Probes p = random_probes(t.chain, static_cast<unsigned>(anisotropy));
+    const LookupPlaces p = random_probes(t.chain, static_cast<unsigned>(anisotropy));
     const Samples expected = look_up(t, p, InstructionSet::scalar);
     const Samples got = look_up(t, p, GetParam());
     for (const auto channel : {&Samples::r, &Samples::g, &Samples::b, &Samples::a}) {

@@ -17,8 +17,6 @@ namespace {
 
 using namespace reference;
 
-constexpr double kPi = std::numbers::pi;
-
 /// A latlong picture of a function of the direction.
 template <class Radiance>
 std::shared_ptr<const Image> latlong(int height, Radiance radiance) {
@@ -83,7 +81,8 @@ Errors mirror_errors(const Renderer& renderer, const glm::dvec3& eye, const glm:
                        n = glm::normalize(value(image, "N.", "XYZ", x, y));
       const glm::dvec3 reflected = glm::reflect(glm::normalize(p - eye), n);
       const glm::dvec3 seen = glm::normalize(value(image, "", "RGB", x, y) * 2.0 - 1.0);
-      const double error = std::acos(std::clamp(glm::dot(seen, truth(p, reflected)), -1.0, 1.0)) * 180 / kPi;
+      const double error =
+          std::acos(std::clamp(glm::dot(seen, truth(p, reflected)), -1.0, 1.0)) * 180 / std::numbers::pi;
       errors.mean += error;
       errors.largest = std::max(errors.largest, error);
       ++errors.count;
@@ -115,7 +114,7 @@ TEST(EnvironmentMap, BackgroundIsTheRightWayRound) {
   const Renderer as_it_is = make_renderer(scene);
   for (const glm::dvec3 to : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0),
                               glm::dvec3(0, -1, 0), glm::dvec3(0.6, 0, -0.8), glm::dvec3(0, -0.6, -0.8)}) {
-    EXPECT_GT(glm::dot(ahead(settings, as_it_is, to), to), std::cos(0.5 * kPi / 32));
+    EXPECT_GT(glm::dot(ahead(settings, as_it_is, to), to), std::cos(0.5 * std::numbers::pi / 32));
   }
   scene.environment->world_from_environment = {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}};  // 90° about +Y
   const Renderer turned = make_renderer(scene);
@@ -164,7 +163,7 @@ TEST(EnvironmentCharts, SolidAnglesAddUp) {
           sum += texel;
         }
       }
-      EXPECT_NEAR(sum, 4 * kPi, 1e-6) << known.name << " " << size;
+      EXPECT_NEAR(sum, 4 * std::numbers::pi, 1e-6) << known.name << " " << size;
     }
   }
 }
@@ -187,7 +186,7 @@ TEST(EnvironmentCharts, SolidAnglesAreTheShareOfDirections) {
     }
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        const double share = texel_solid_angle(known.chart, width, height, x, y) / (4 * kPi);
+        const double share = texel_solid_angle(known.chart, width, height, x, y) / (4 * std::numbers::pi);
         const double deviation = std::sqrt(std::max(share * (1 - share) / kDirections, 0.0));
         EXPECT_NEAR(hits[static_cast<std::size_t>(y * width + x)] / double{kDirections}, share,
                     5 * deviation + 1e-12)
@@ -267,7 +266,7 @@ TEST(EnvironmentCharts, DistortionIsWhatGeometrySays) {
   EXPECT_NEAR(cube.anisotropy, std::sqrt(3.0), 0.02);
   const ChartDistortion sphere = measure_distortion(EnvironmentChart::sphere, 128);
   EXPECT_NEAR(sphere.largest_solid_angle / sphere.smallest_solid_angle, 1, 1e-6);
-  EXPECT_NEAR(sphere.unused_share, 1 - kPi / 4, 1e-12);
+  EXPECT_NEAR(sphere.unused_share, 1 - std::numbers::pi / 4, 1e-12);
   const ChartDistortion paraboloid = measure_distortion(EnvironmentChart::dual_paraboloid, 128);
   EXPECT_NEAR(paraboloid.largest_solid_angle / paraboloid.smallest_solid_angle, 4, 0.1);
   EXPECT_NEAR(paraboloid.anisotropy, 1, 1e-4);
@@ -287,7 +286,7 @@ image::EnvironmentPicture picture_of(const Image& image) {
 // A sky with a sun three hundred times as bright and 8° wide, and a dark ground with stripes.
 glm::dvec3 sunny(const glm::dvec3& d) {
   const glm::dvec3 sun = glm::normalize(glm::dvec3(0.5, 0.6, -0.4));
-  const double disc = 300 * std::exp(-(1 - glm::dot(d, sun)) / (1 - std::cos(4 * kPi / 180)));
+  const double disc = 300 * std::exp(-(1 - glm::dot(d, sun)) / (1 - std::cos(4 * std::numbers::pi / 180)));
   const glm::dvec3 sky =
       d.y > 0 ? glm::dvec3(0.4, 0.6, 1) * (1 + d.y) : glm::dvec3(0.2 + 0.1 * std::sin(9 * d.x));
   return sky + glm::dvec3(disc);
@@ -361,9 +360,9 @@ TEST(SpecularMap, IrradianceByHarmonicsIsExactForSmoothLight) {
     glm::dvec3 irradiance(0);
     const auto basis = image::spherical_harmonics(n);
     for (std::size_t i = 0; i < 9; ++i) irradiance += map.irradiance[i] * basis[i];
-    EXPECT_NEAR(irradiance.x, kPi, 2e-3);
-    EXPECT_NEAR(irradiance.y, kPi + 2 * kPi / 3 * n.y, 2e-3);
-    EXPECT_NEAR(irradiance.z, kPi + kPi / 4 * n.x * n.z, 2e-3);
+    EXPECT_NEAR(irradiance.x, std::numbers::pi, 2e-3);
+    EXPECT_NEAR(irradiance.y, std::numbers::pi + 2 * std::numbers::pi / 3 * n.y, 2e-3);
+    EXPECT_NEAR(irradiance.z, std::numbers::pi + std::numbers::pi / 4 * n.x * n.z, 2e-3);
   }
 }
 
@@ -381,13 +380,14 @@ TEST(SpecularMap, SplitSumIsTheIntegralOfTheReflectance) {
   constexpr int kGrid = 1000;
   for (int i = 0; i < kGrid; ++i) {
     for (int j = 0; j < kGrid; ++j) {
-      const double n_l = (i + 0.5) / kGrid, turn = 2 * kPi * (j + 0.5) / kGrid,
+      const double n_l = (i + 0.5) / kGrid, turn = 2 * std::numbers::pi * (j + 0.5) / kGrid,
                    across = std::sqrt(1 - n_l * n_l);
       const glm::dvec3 l(across * std::cos(turn), across * std::sin(turn), n_l);
       const glm::dvec3 h = glm::normalize(l + v);
-      const double t = h.z * h.z * (a2 - 1) + 1, distribution = a2 / (kPi * t * t);
+      const double t = h.z * h.z * (a2 - 1) + 1, distribution = a2 / (std::numbers::pi * t * t);
       const auto g1 = [&](double c) { return 2 * c / (c + std::sqrt(a2 + (1 - a2) * c * c)); };
-      const double f = distribution * g1(n_l) * g1(n_v) / (4 * n_l * n_v) * n_l * 2 * kPi / (kGrid * kGrid);
+      const double f =
+          distribution * g1(n_l) * g1(n_v) / (4 * n_l * n_v) * n_l * 2 * std::numbers::pi / (kGrid * kGrid);
       const double fresnel = std::pow(1 - glm::dot(v, h), 5);
       scale += f * (1 - fresnel);
       bias += f * fresnel;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 
 #include "reference/picture_probes.h"
 #include "reference/projector_scenes.h"
@@ -13,8 +14,6 @@ namespace laterna {
 namespace {
 
 using namespace reference;
-
-constexpr double kPi = 3.14159265358979323846;
 
 Scene example(const char* scene, const char* rig) {
   const std::filesystem::path folder = LATERNA_SOURCE_DIR "/examples/scenes";
@@ -79,14 +78,14 @@ TEST(Headlights, TheCutOffStandsOnTheWallWhereTheMapPutsIt) {
       int rising = 0;
       for (int x = 20; x < kWallWidth - 20; x += 4) {
         const double across = ((x + 0.5) * kPixel - 8 - position.x) / distance;
-        if (std::max(across, 0.0) * std::tan(kPi / 12) > 0.09) continue;  // above the map's top
+        if (std::max(across, 0.0) * std::tan(std::numbers::pi / 12) > 0.09) continue;  // above the map's top
         const int column = static_cast<int>(kAxisX + across * kFocal);
         const double up = (kAxisY - steepest_row(map, map.channels[0].name, column)) / kFocal;
         const double expected = (2 - (position.y + up * distance)) / kPixel;
         if (expected < 2) continue;  // above the picture
         EXPECT_NEAR(steepest_row(wall, "lux.Y", x), expected, 1) << lamp << ", " << x << ", " << driven;
         // What the map was made to be: UN Regulation 112's border.
-        EXPECT_NEAR(up, -0.01 + std::max(across, 0.0) * std::tan(kPi / 12), 1.5 / kFocal);
+        EXPECT_NEAR(up, -0.01 + std::max(across, 0.0) * std::tan(std::numbers::pi / 12), 1.5 / kFocal);
         (across > 0 ? rising : level) += 1;
       }
       EXPECT_GT(level, 20);
@@ -123,7 +122,7 @@ TEST(Headlights, SteeringMovesTheTaxiLightsPatch) {
   constexpr int kWidth = 1000;
   constexpr double kSide = 0.08;  // metres of a pixel
   for (const double degrees : {-20.0, -5.0, 0.0, 12.0, 24.0}) {
-    const double theta = degrees * kPi / 180;
+    const double theta = degrees * std::numbers::pi / 180;
     // To the right is clockwise from above.
     ASSERT_TRUE(renderer.set_transform(node, glm::rotate(ahead, -theta, glm::dvec3(0, 1, 0))));
     View view;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace reference;
 
-constexpr int kSide = 24;
+constexpr int kPictureSide = 24;
 const std::string kChannels[] = {"R", "G", "B"};
 
 // A wall that fills the picture and shows its base colour as it is.
@@ -28,7 +28,7 @@ Scene bare_wall(const glm::vec3& color = glm::vec3(1)) {
 LayeredImage picture_of(Scene scene, Passes passes = Passes::single,
                         ShadingModel model = ShadingModel::papers,
                         InstructionSet set = best_instruction_set()) {
-  RenderSettings settings = papers_settings(kSide, kSide);
+  RenderSettings settings = papers_settings(kPictureSide, kPictureSide);
   settings.shading = model;
   settings.passes = passes;
   settings.layers = {Layer::light, Layer::albedo};
@@ -71,7 +71,7 @@ TEST(MitLecture20Blending, FourLayersInOnePassAreFourPassesBitForBit) {
   Scene stacked = bare_wall();
   std::vector<int> pictures = add_four_pictures(stacked);
   const float opacities[] = {1, 0.75F, 1, 0.3F};
-  std::vector<Colour<float>> buffer(kSide * kSide, {1, 1, 1});
+  std::vector<Colour<float>> buffer(kPictureSide * kPictureSide, {1, 1, 1});
   for (std::size_t n = 0; n < 4; ++n) {
     stacked.materials[0].layers.push_back(layer_of(kFour[n], pictures[n], opacities[n]));
     Scene alone = bare_wall();
@@ -208,7 +208,7 @@ TEST(MitLecture20Blending, PassesOfEightBitsAreOffByHalfACodeEach) {
     const LayeredImage image = picture_of(std::move(scene), Passes::multi);
     const auto code = [](float value) { return static_cast<int>(std::floor(255 * value + 0.5F)); };
     int worst = 0;
-    for (std::size_t i = 0; i < kSide * kSide; ++i) {
+    for (std::size_t i = 0; i < kPictureSide * kPictureSide; ++i) {
       int buffer = 0;
       for (int n = 0; n < lights; ++n)
         buffer += code(image.find("light.light " + std::to_string(n) + ".G")->values[i]);
@@ -416,9 +416,10 @@ TEST(MitLecture20Blending, ATextureMayBeThereOnce) {
   layer.once = true;
   scene.materials[0].layers = {layer};
   const LayeredImage image = picture_of(std::move(scene));
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      const bool is_on = x >= kSide / 2 && x < kSide * 3 / 4 && y >= kSide / 4 && y < kSide / 2;
+  for (int y = 0; y < kPictureSide; ++y) {
+    for (int x = 0; x < kPictureSide; ++x) {
+      const bool is_on =
+          x >= kPictureSide / 2 && x < kPictureSide * 3 / 4 && y >= kPictureSide / 4 && y < kPictureSide / 2;
       EXPECT_EQ(at(image, "G", x, y), is_on ? 1 : 0.25F) << x << ' ' << y;
     }
   }

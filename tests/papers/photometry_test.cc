@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "laterna/light_color.h"
@@ -19,7 +20,6 @@ namespace {
 
 using namespace reference;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr ShadingModel kModels[] = {ShadingModel::papers, ShadingModel::phong, ShadingModel::pbr};
 
 RenderSettings photometric(int width, int height, ShadingModel model = ShadingModel::pbr) {
@@ -74,7 +74,7 @@ TEST(Photometry, LuminanceOfAMattSurfaceIsIlluminanceTimesReflectanceOverPi) {
   const View from_the_lamp = look({0, 0, 2}, {0, 0, 0}, 0.1, 1);
   const LayeredImage image = render(make_renderer(std::move(scene)), from_the_lamp, photometric(3, 3));
   // Along the normal GGX with roughness 1 gives D V = 1/π · 1/4.
-  EXPECT_NEAR(at(image, "luminance.Y", 1, 1), 25 * (0.96 * 0.5 + 0.04 / 4) / kPi, 1e-4);
+  EXPECT_NEAR(at(image, "luminance.Y", 1, 1), 25 * (0.96 * 0.5 + 0.04 / 4) / std::numbers::pi, 1e-4);
   for (int x = 0; x < 3; ++x) {
     EXPECT_EQ(
         at(image, "luminance.Y", x, 1),
@@ -143,8 +143,8 @@ TEST(Photometry, PixelDensityIsThatOfTheSparserDirection) {
 
   Scene scene;
   Mesher turned;
-  const double c = std::cos(kPi / 3);
-  const double s = std::sin(kPi / 3);
+  const double c = std::cos(std::numbers::pi / 3);
+  const double s = std::sin(std::numbers::pi / 3);
   const auto corner = [&](double x, double y) { return glm::vec3(x * c, y, -x * s); };
   turned.quad(corner(-2, -2), corner(2, -2), corner(2, 2), corner(-2, 2));
   add_object(scene, "turned", turned.primitive);
@@ -358,7 +358,7 @@ TEST(Photometry, AGridCoversAnObjectOnce) {
     return sum;
   };
   EXPECT_NEAR(area("box"), 2 * (2 * 1 + 2 * 0.5 + 1 * 0.5), 0.05);
-  EXPECT_NEAR(area("ball"), 4 * kPi, 0.01 * 4 * kPi + 0.2);
+  EXPECT_NEAR(area("ball"), 4 * std::numbers::pi, 0.01 * 4 * std::numbers::pi + 0.2);
   const std::vector<Probe> on_ball = renderer.probes_on_object("ball", 0.1).value();
   for (const Probe& probe : on_ball) {
     EXPECT_NEAR(glm::length(probe.position_ws), 1, 0.02);
@@ -379,7 +379,7 @@ TEST(Photometry, ReadingsAreWrittenForOtherPrograms) {
   const std::vector<Probe> probes = probes_on_rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 1, 1).value();
   const ProbeReport report = renderer.measure_probes(probes, {}).value();
   const auto written = [&](const char* ending) {
-    const std::string file = testing::TempDir() + "readings" + ending;
+    const std::string file = ::testing::TempDir() + "readings" + ending;
     EXPECT_TRUE(write_probes(probes, report, file));
     std::ostringstream text;
     text << std::ifstream(file).rdbuf();

@@ -16,8 +16,6 @@ using bake::Interreflection;
 using reference::LitRoom;
 using reference::LuxelRoom;
 
-constexpr double kPi = std::numbers::pi;
-
 RadiositySettings one_bounce(int rays) { return {rays, 1, 0}; }
 
 // Row 106. Every surface gives off 1 and reflects half: B = 1 + B / 2.
@@ -100,7 +98,7 @@ TEST(Radiosity, small_bright_squares_are_found_and_cast_shadows) {
       const double z = 5 - (row + 0.5) * 0.4;
       const double squared = x * x + z * z + 16;
       const auto i = static_cast<std::size_t>(row * 25 + column);
-      const double expected = 1000 * 0.01 * 16 / (kPi * squared * squared);
+      const double expected = 1000 * 0.01 * 16 / (std::numbers::pi * squared * squared);
       EXPECT_NEAR(open[i].x, expected, 0.01 * expected) << x << ' ' << z;
       // The square halfway up throws a shadow of twice its size, and half a lamp more or less.
       const double far_out = std::max(std::abs(x), std::abs(z));
@@ -220,7 +218,7 @@ class Photons {
 
   glm::dvec3 reflected(int axis, double sign) {
     const double radius = std::sqrt(random());
-    const double angle = 2 * kPi * random();
+    const double angle = 2 * std::numbers::pi * random();
     glm::dvec3 d;
     d[(axis + 1) % 3] = radius * std::cos(angle);
     d[(axis + 2) % 3] = radius * std::sin(angle);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "frame/relief_field.h"
 #include "laterna/material_lobes.h"
@@ -16,8 +17,6 @@ namespace laterna {
 namespace {
 
 using namespace reference;
-
-constexpr double kPi = 3.14159265358979323846;
 
 int add_heights(Scene& scene, int width, int height, const std::function<double(int, int)>& height_at) {
   return add_linear_picture(scene, width, height,
@@ -157,8 +156,8 @@ TEST(Relief, RepeatsHoweverFarAway) {
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirror}) {
     const auto draw = [&](float tiles, bool is_flat = false) {
       Scene scene;
-      const int heights =
-          add_heights(scene, 2048, 1, [](int x, int) { return 0.5 + 0.5 * std::cos(x * kPi / 1024); });
+      const int heights = add_heights(
+          scene, 2048, 1, [](int x, int) { return 0.5 + 0.5 * std::cos(x * std::numbers::pi / 1024); });
       add_relief_floor(scene, heights, 0.1);
       Relief relief = *scene.materials.back().relief;
       relief.texture.uv_from_mesh_uv = {1, 0, tiles, 0, 1, 0};
@@ -196,12 +195,12 @@ double baked_share(const MaterialLobes& lobes, double angle_deg, float metallic 
   scene.ambient = glm::vec3(0);
   scene.ambient_is_set = true;
   add_dark_lamp(scene);
-  const double angle = angle_deg * kPi / 180;
+  const double angle = angle_deg * std::numbers::pi / 180;
   View camera = look({5 * std::sin(angle), 0, 5 * std::cos(angle)}, {0, 0, 0}, 30, 1);
   camera.projection = Projection::orthographic(0.1, 0.1, 0.1, 20);
   RenderSettings settings = test_settings(4, 4);
   settings.shading = ShadingModel::pbr;
-  return kPi * at(make_renderer(std::move(scene)).render(camera, settings).value(), "G", 2, 2);
+  return std::numbers::pi * at(make_renderer(std::move(scene)).render(camera, settings).value(), "G", 2, 2);
 }
 
 // Baked light is scattered by what is left of the base colour of 0.5 beneath the other layers: the formulas of docs/materials.md.
@@ -233,7 +232,7 @@ TEST(LightMaps, LobesTakeTheirShareOfBakedLight) {
   cloth.sheen.color = {0.2F, 0.6F, 0.4F};
   cloth.sheen.roughness = 0.5F;
   for (const double angle : {0.0, 60.0}) {
-    const double albedo = sheen_albedo(std::cos(angle * kPi / 180), 0.5, 200);
+    const double albedo = sheen_albedo(std::cos(angle * std::numbers::pi / 180), 0.5, 200);
     EXPECT_NEAR(baked_share(cloth, angle), plain * (1 - 0.6 * albedo), 1e-3) << angle;
   }
 }

@@ -17,7 +17,7 @@ namespace {
 using reference::same_bits;
 
 constexpr int kWidth = 96, kHeight = 72;
-const View kView = reference::look({4, 5, 7}, {0, 0.5, 0}, 45, static_cast<double>(kWidth) / kHeight);
+const View kViewOfLayers = reference::look({4, 5, 7}, {0, 0.5, 0}, 45, static_cast<double>(kWidth) / kHeight);
 
 void move(Scene& scene, int node, std::vector<double> times, std::vector<double> places) {
   scene.nodes[static_cast<std::size_t>(node)].transform = Transform{};
@@ -62,7 +62,7 @@ Hall hall() {
   return hall;
 }
 
-RenderSettings small_settings() {
+RenderSettings settings_of_layers() {
   RenderSettings settings = reference::test_settings(kWidth, kHeight);
   settings.layers = {Layer::visibility};
   return settings;
@@ -73,9 +73,9 @@ struct Drawn {
   RenderStatistics statistics;
 };
 
-Drawn draw(const Renderer& renderer, const View& view = kView) {
+Drawn draw(const Renderer& renderer, const View& view = kViewOfLayers) {
   Drawn drawn;
-  Result<LayeredImage> picture = renderer.render(view, small_settings(), {}, &drawn.statistics);
+  Result<LayeredImage> picture = renderer.render(view, settings_of_layers(), {}, &drawn.statistics);
   EXPECT_TRUE(picture);
   if (picture) drawn.picture = std::move(*picture);
   return drawn;

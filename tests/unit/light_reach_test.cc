@@ -33,7 +33,7 @@ bool shines_at(const frame::PlacedLight& light, const glm::dvec3& p) {
   return is_ahead && h.x >= 0 && h.x <= h.w && h.y >= 0 && h.y <= h.w;
 }
 
-class ProjectorReach : public testing::TestWithParam<bool> {};
+class ProjectorReach : public ::testing::TestWithParam<bool> {};
 
 TEST_P(ProjectorReach, LeavesOutOnlyBoxesWithoutLight) {
   Light light;
@@ -58,7 +58,7 @@ TEST_P(ProjectorReach, LeavesOutOnlyBoxesWithoutLight) {
   EXPECT_GT(left_out, 2500);
 }
 
-INSTANTIATE_TEST_SUITE_P(Beams, ProjectorReach, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Beams, ProjectorReach, ::testing::Bool(),
                          [](const auto& beam) { return beam.param ? "Parallel" : "Perspective"; });
 
 TEST(LightReach, EndsAtTheRangeOfWindowedLight) {

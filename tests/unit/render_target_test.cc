@@ -28,7 +28,7 @@ RenderSettings small_settings() {
   return settings;
 }
 
-LayeredImage draw(const Renderer& renderer, const RenderSettings& settings) {
+LayeredImage draw_layers(const Renderer& renderer, const RenderSettings& settings) {
   return reference::render(renderer, everything_view(settings.width, settings.height), settings);
 }
 
@@ -45,7 +45,7 @@ std::string error_of(const Renderer& renderer, const RenderSettings& settings,
 TEST(RenderTarget, ChannelsGoWhereTheCallerWantsThemAndNowhereElse) {
   RenderSettings settings = small_settings();
   settings.layers = {Layer::depth, Layer::light};
-  const LayeredImage expected = draw(everything_renderer(), settings);
+  const LayeredImage expected = draw_layers(everything_renderer(), settings);
   constexpr std::size_t kStride = 101, kGuard = 17;
   constexpr float kUntouched = -77;
   for (const char* name : {"R", "A", "Z", "light.sun.G"}) {
@@ -82,7 +82,7 @@ TEST(RenderTarget, ATargetOfNothingStillGivesStatistics) {
 TEST(RenderTarget, EightBitPixelsAreTheEncodedBeauty) {
   RenderSettings settings = small_settings();
   settings.samples = 4;
-  const LayeredImage linear = draw(everything_renderer(), settings);
+  const LayeredImage linear = draw_layers(everything_renderer(), settings);
   for (const int channels : {3, 4}) {
     for (const float exposure : {1.0F, 2.5F}) {
       const std::size_t stride = 90 * static_cast<std::size_t>(channels) + 13;
@@ -146,7 +146,7 @@ TEST(RenderChannels, NamesAreThoseOfThePictureInItsOrder) {
          {std::vector<Layer>{}, {Layer::light}, {Layer::object, Layer::uv}, all_layers(passes)}) {
       settings.layers = layers;
       std::vector<std::string> drawn;
-      for (const Channel& channel : draw(everything_renderer(), settings).channels)
+      for (const Channel& channel : draw_layers(everything_renderer(), settings).channels)
         drawn.push_back(channel.name);
       EXPECT_EQ(everything_renderer().channel_names(settings), drawn);
       EXPECT_EQ(std::set<std::string>(drawn.begin(), drawn.end()).size(), drawn.size());
