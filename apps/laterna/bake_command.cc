@@ -69,13 +69,15 @@ void print_report(const BakeReport& r, const std::string& output) {
              r.pages.size(), r.pages.size() == 1 ? "" : "s", text_of(r.pages));
   fmt::print("  lights:  {}\n", lights.empty() ? "none" : lights);
   fmt::print(
-      "  luxels:  {}, {} of them lit or padding, {:.1f} % of the area is surface, {:.1f} MB in memory\n",
-      r.luxels, r.lit_luxels, 100 * r.used, static_cast<double>(r.bytes) / 1e6);
-  fmt::print("  density: {:.4g} to {:.4g} luxels per metre\n", r.least_density, r.greatest_density);
+      "  luxels:  {}, {} of them on surfaces, {} continue these, {:.1f} % of the area is surface, {:.1f} MB "
+      "in memory\n",
+      r.luxels, r.lit_luxels, r.padding_luxels, 100 * r.used, static_cast<double>(r.bytes) / 1e6);
+  fmt::print("  density: {:.4g} to {:.4g} luxels per metre{}\n", r.least_density, r.greatest_density,
+             r.thin_triangles == 0 ? "" : fmt::format(", but for {} thin triangles", r.thin_triangles));
   if (r.bounces > 0) fmt::print("  bounces: {}\n", r.bounces);
   if (r.exposure > 0) fmt::print("  shown:   radiance times {:.4g}, 1 is white\n", r.exposure);
   fmt::print("  time:    {:.2f} s laying out, {:.2f} s light", r.layout_ms / 1000, r.light_ms / 1000);
-  if (r.resumed_strips > 0) fmt::print("; {} of {} parts were there already", r.resumed_strips, r.strips);
+  if (r.resumed_parts > 0) fmt::print("; {} of {} parts were there already", r.resumed_parts, r.parts);
   fmt::print("\n");
 }
 
@@ -89,13 +91,15 @@ nlohmann::ordered_json report_json(const BakeReport& r) {
   json["charts"] = r.charts;
   json["luxels"] = r.luxels;
   json["lit_luxels"] = r.lit_luxels;
+  json["padding_luxels"] = r.padding_luxels;
   json["used"] = r.used;
   json["luxels_per_metre"] = {r.least_density, r.greatest_density};
+  json["thin_triangles"] = r.thin_triangles;
   json["bounces"] = r.bounces;
   if (r.exposure > 0) json["exposure"] = r.exposure;
   json["bytes"] = r.bytes;
-  json["parts"] = r.strips;
-  json["resumed_parts"] = r.resumed_strips;
+  json["parts"] = r.parts;
+  json["resumed_parts"] = r.resumed_parts;
   json["layout_ms"] = r.layout_ms;
   json["light_ms"] = r.light_ms;
   return json;
@@ -130,8 +134,11 @@ Result<BakedScene> bake(Scene scene, BakeSettings settings) {
   }();
   if (signal == 0) return baked;
   if (!baked && baked.error().failure == Failure::cancelled)
-    fmt::print(stderr, "{}laterna: stopped: what is finished lies beside {}, and --resume goes on with it\n",
-               line ? "\r\033[K" : "", settings.work_file.string());
+    fmt::print(stderr, "{}laterna: stopped: {}\n", line ? "\r\033[K" : "",
+               bake_parts(settings.work_file).empty()
+                   ? std::string("no part was finished yet")
+                   : fmt::format("what is finished lies beside {}, and --resume goes on with it",
+                                 settings.work_file.string()));
   end_by_signal(signal);
 }
 
@@ -248,10 +255,10 @@ void declare_bake(CLI::App& app, Run& run) {
                     "lay surfaces out anew even where their second texture coordinates serve");
   command->add_flag("--resume", b.resume, "go on where a run of the same bake was stopped");
   command->add_flag("--embed", o.embeds, "a .gltf of one piece");
-  command->add_option(
-      "--quake", o.quake,
-      "NAME.png: the first camera's view the way Quake showed it in 1996, NAME.texture.png, NAME.light.png "
-      "and NAME.product.png, and how often a walk finds its surfaces in the cache");
+  command->add_option("--quake", o.quake,
+                      "NAME.png: the first camera's view the way Quake showed it in 1996, with its factors "
+                      "NAME.texture.png and "
+                      "NAME.light.png, and how often a walk finds its surfaces in the cache");
   declare_written_environment(*command, o.environment);
   o.scene.declare_machine(*command);
   command->add_flag("--json", o.json, "what was done, as JSON, to standard output");

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "laterna/quake_surfaces.h"
@@ -19,11 +20,13 @@ constexpr double kMetresToTheSide = 1;
 constexpr std::array<std::pair<QuakePicture, const char*>, 3> kPictures = {{
     {QuakePicture::texture, "texture"},
     {QuakePicture::light_map, "light"},
-    {QuakePicture::product, "product"},
+    {QuakePicture::product, ""},
 }};
 
-std::filesystem::path named(const std::string& file, const char* what) {
+// room.png, room.light.png
+std::filesystem::path named(const std::string& file, std::string_view what) {
   std::filesystem::path path(file);
+  if (what.empty()) return path;
   return path.replace_extension(fmt::format("{}{}", what, path.extension().string()));
 }
 
@@ -36,9 +39,7 @@ Result<View> first_view(const Scene& baked, const QuakeSettings& settings) {
 
 }  // namespace
 
-Result<void> check_quake_output(const std::string& file) {
-  return check_image_output(named(file, "product"));
-}
+Result<void> check_quake_output(const std::string& file) { return check_image_output(file); }
 
 Result<void> demonstrate_quake(const Scene& baked, const std::string& file) {
   const QuakeSettings settings;

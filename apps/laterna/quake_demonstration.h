@@ -7,8 +7,8 @@
 
 namespace laterna::app {
 
-/// Writes three pictures of the first camera, or of an overview: "room.texture.png", "room.light.png" and
-/// "room.product.png" for `file` "room.png". Then takes a walk, of one metre to the side and back, and tells what was found in
+/// Writes three pictures of the first camera, or of an overview: the product as `file`, "room.png", and its factors as
+/// "room.texture.png" and "room.light.png". Then takes a walk, of one metre to the side and back, and tells what was found in
 /// the cache.
 Result<void> demonstrate_quake(const Scene& baked, const std::string& file);
 

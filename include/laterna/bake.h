@@ -73,15 +73,19 @@ struct BakeReport {
     bool has_back = false;  ///< another picture for the backs of double-sided surfaces
   };
   std::vector<Page> pages;
-  std::size_t surfaces = 0;                        ///< instances of primitives that have got light maps
-  std::size_t charts = 0;                          ///< pieces that lie flat in them
-  std::size_t luxels = 0;                          ///< of all pages
-  std::size_t lit_luxels = 0;                      ///< of these, on a surface or within its padding
-  double used = 0;                                 ///< surfaces' share of the pages' area
-  double least_density = 0, greatest_density = 0;  ///< luxels per metre in any direction on any triangle
-  std::size_t bytes = 0;                           ///< of the light maps in memory, and of occlusion
-  std::size_t strips = 0,
-              resumed_strips = 0;  ///< parts in which the work was done, and those that were there already
+  std::size_t surfaces = 0;        ///< instances of primitives that have got light maps
+  std::size_t charts = 0;          ///< pieces that lie flat in them
+  std::size_t luxels = 0;          ///< of all pages
+  std::size_t lit_luxels = 0;      ///< of these, on a surface or read at its rim
+  std::size_t padding_luxels = 0;  ///< that continue a surface
+  double used = 0;                 ///< surfaces' share of the pages' area
+  /// Luxels per metre in any direction on any triangle but the thin ones, which are less than a hundredth of a luxel high:
+  /// rounding alone decides on theirs.
+  double least_density = 0, greatest_density = 0;
+  std::size_t thin_triangles = 0;
+  std::size_t bytes = 0;  ///< of the light maps in memory, and of occlusion
+  std::size_t parts = 0,
+              resumed_parts = 0;  ///< in which the work was done, and those that were there already
   double layout_ms = 0, light_ms = 0;
   float exposure = 0;               ///< that BakeInto::emissive was given, or has found
   int bounces = 0;                  ///< of interreflection, that were worked out
@@ -108,6 +112,8 @@ struct BakedScene {
 /// BakeInto::emissive, a light that is on and not among those to be baked.
 Result<BakedScene> bake_light(Scene scene, const BakeSettings& settings, const Progress& progress = {});
 
+/// The finished parts of any bake of this file, of other settings too.
+std::vector<std::filesystem::path> bake_parts(const std::filesystem::path& work_file);
 /// Removes the finished parts of any bake of this file, stopped ones of other settings too: after what was baked is written.
 void remove_bake_parts(const std::filesystem::path& work_file);
 

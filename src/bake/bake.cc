@@ -216,6 +216,14 @@ class Baker {
       if (Result<void> shown = show(*frame, rays); !shown) return shown;
     }
     continue_all();
+    report_.parts = files.tally().asked;
+    report_.resumed_parts = files.tally().found;
+    if (files.tally().not_kept) {
+      Diagnostic note = files.tally().not_kept->diagnostics.front();
+      note.message +=
+          ": parts that were finished were not kept, and a run that is stopped could not go on from there";
+      scene_.warnings.push_back(std::move(note));
+    }
     return {};
   }
 
@@ -284,11 +292,9 @@ class Baker {
     std::size_t row = 0;
     for (std::size_t strip = 0; strip < strip_count(size) && !context.progress.is_cancelled(); ++strip) {
       StripValues values(strip_size(size, strip), layout_.pages[page].has_back, context.occlusion != nullptr);
-      ++report_.strips;
       const PartFiles::Values bytes = {std::as_writable_bytes(std::span(values.numbers))};
       const std::string part = fmt::format("{}-{}", page, strip);
       if (files.find(part, bytes)) {
-        ++report_.resumed_strips;
         context.progress.advance(tiles_of(values.size));
       } else {
         light_strip(context, strip, values);
@@ -324,7 +330,7 @@ class Baker {
       for (Image* picture : {page.front.get(), page.back.get(), page.occlusion.get()}) {
         if (picture != nullptr) pictures.push_back(picture);
       }
-      continue_surfaces(pictures, page.is_found, settings_.padding);
+      report_.padding_luxels += continue_surfaces(pictures, page.is_found, settings_.padding);
     }
   }
 
@@ -355,6 +361,7 @@ class Baker {
     report_.used = layout_.used;
     report_.least_density = layout_.least_density;
     report_.greatest_density = layout_.greatest_density;
+    report_.thin_triangles = layout_.thin_triangles;
   }
 
   Scene scene_;

@@ -284,6 +284,15 @@ class Layout {
     }
   }
 
+  // By its least height: places are single precision, 1e-4 of a luxel on a large page.
+  [[nodiscard]] bool is_thin(const glm::dvec3& u, const glm::dvec3& v) const {
+    constexpr double kThin = 0.01;
+    const glm::dvec3 n = glm::cross(u, v), w = v - u;
+    const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
+    const double side = kThin / settings_.density;
+    return !(glm::dot(n, n) > side * side * longest);
+  }
+
   // Luxels per metre are the singular values of the map from a triangle's plane to the page.
   void measure(const std::array<glm::dvec3, 3>& p, const std::array<glm::vec2, 3>& places,
                const glm::dvec2& size) {
@@ -293,11 +302,13 @@ class Layout {
     used_luxels_ += std::abs(qu.x * qv.y - qu.y * qv.x) / 2;
     const glm::dvec3 u = p[1] - p[0], v = p[2] - p[0];
     const double uu = glm::dot(u, u);
-    if (!(uu > 0)) return;
+    if (is_thin(u, v)) {
+      ++layout_.thin_triangles;
+      return;
+    }
     // In axes along u and square to it, u = (a, 0) and v = (b, c).
     const double a = std::sqrt(uu), b = glm::dot(u, v) / a;
     const double c = std::sqrt(std::max(glm::dot(v, v) - b * b, 0.0));
-    if (!(c > 1e-9 * a)) return;
     const glm::dvec2 x = qu / a, y = (qv - x * b) / c;
     const double half = (glm::dot(x, x) + glm::dot(y, y)) / 2;
     const double other = (glm::dot(x, x) - glm::dot(y, y)) / 2, mixed = glm::dot(x, y);

@@ -24,6 +24,7 @@ struct LightMapLayout {
   std::size_t surfaces = 0, charts = 0;
   double used = 0;  ///< the surfaces' share of the pages' area
   double least_density = 0, greatest_density = 0;
+  std::size_t thin_triangles = 0;  ///< which these leave out
 };
 
 /// Whether its surfaces can show a light map: what has no light to reflect (unlit) and glass, which shows what lies behind,

@@ -18,7 +18,7 @@ namespace bake {
 namespace {
 
 // Changes whenever the same scene would be baked otherwise.
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 constexpr std::array<char, 8> kMagic = {'L', 'A', 'T', 'B', 'A', 'K', 'E', '1'};
 constexpr std::string_view kInfix = ".bake-";
 // What write_file() names a file that is not whole yet.
@@ -50,12 +50,13 @@ bool is_name_of_part(std::string_view name, const std::string& file) {
   return !name.empty() && std::ranges::all_of(name, belongs);
 }
 
-// Begins as ours do, or is still empty.
+// Begins as ours do. One that was being written when its program was killed may be empty still.
 bool begins_as_part(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::array<char, kMagic.size()> begin{};
   stream.read(begin.data(), begin.size());
-  return stream.gcount() == 0 || begin == kMagic;
+  const bool is_unfinished = path.filename().string().starts_with('.');
+  return begin == kMagic || (is_unfinished && stream.gcount() == 0);
 }
 
 }  // namespace
@@ -71,7 +72,13 @@ std::filesystem::path PartFiles::path_of(std::string_view part) const {
 }
 
 bool PartFiles::find(std::string_view part, const Values& values) const {
-  if (file_.empty() || !resume_) return false;
+  ++tally_->asked;
+  const bool is_found = !file_.empty() && resume_ && read(part, values);
+  if (is_found) ++tally_->found;
+  return is_found;
+}
+
+bool PartFiles::read(std::string_view part, const Values& values) const {
   std::size_t size = sizeof(Header);
   for (const std::span<std::byte> value : values) size += value.size();
   const std::filesystem::path path = path_of(part);
@@ -101,13 +108,14 @@ void PartFiles::keep(std::string_view part, const Values& values) const {
   header.key = key_.words();
   header.sum = sum_of(std::span(bytes).subspan(sizeof header));
   std::memcpy(bytes.data(), &header, sizeof header);
-  static_cast<void>(write_file(path_of(part), bytes));
+  const Result<void> written = write_file(path_of(part), bytes);
+  if (!written && !tally_->not_kept) tally_->not_kept = written.error();
 }
 
 }  // namespace bake
 
-void remove_bake_parts(const std::filesystem::path& work_file) {
-  if (work_file.empty()) return;
+std::vector<std::filesystem::path> bake_parts(const std::filesystem::path& work_file) {
+  if (work_file.empty()) return {};
   const std::filesystem::path folder = work_file.has_parent_path() ? work_file.parent_path() : ".";
   const std::string name = work_file.filename().string();
   std::error_code failed;
@@ -119,7 +127,12 @@ void remove_bake_parts(const std::filesystem::path& work_file) {
         bake::is_name_of_part(entry->path().filename().string(), name) && bake::begins_as_part(entry->path()))
       parts.push_back(entry->path());
   }
-  for (const std::filesystem::path& part : parts) std::filesystem::remove(part, failed);
+  return parts;
+}
+
+void remove_bake_parts(const std::filesystem::path& work_file) {
+  std::error_code failed;
+  for (const std::filesystem::path& part : bake_parts(work_file)) std::filesystem::remove(part, failed);
 }
 
 }  // namespace laterna

@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "image/environment_cache.h"
+#include "laterna/result.h"
 
 namespace laterna::bake {
 
@@ -20,9 +23,15 @@ class PartFiles {
   /// Where a part's numbers are: read by keep(), written by find().
   using Values = std::vector<std::span<std::byte>>;
 
+  /// What became of the parts that were looked for, those of every copy together. From one thread at a time.
+  struct Tally {
+    std::size_t asked = 0, found = 0;
+    std::optional<Error> not_kept;  ///< why the first part that is in no file is in none
+  };
+
   /// An empty `file` keeps nothing. `key`: of all that the parts depend on. `resume`: what is there is taken.
   PartFiles(std::filesystem::path file, const image::ContentKey& key, bool resume)
-      : file_(std::move(file)), key_(key), resume_(resume) {}
+      : file_(std::move(file)), key_(key), resume_(resume), tally_(std::make_shared<Tally>()) {}
 
   /// Keeps nothing.
   static PartFiles none() { return {{}, {}, false}; }
@@ -34,13 +43,16 @@ class PartFiles {
   [[nodiscard]] bool find(std::string_view part, const Values& values) const;
   /// A disk that is full costs only what cannot be resumed.
   void keep(std::string_view part, const Values& values) const;
+  [[nodiscard]] const Tally& tally() const { return *tally_; }
 
  private:
+  [[nodiscard]] bool read(std::string_view part, const Values& values) const;
   [[nodiscard]] std::filesystem::path path_of(std::string_view part) const;
 
   std::filesystem::path file_;
   image::ContentKey key_;
   bool resume_;
+  std::shared_ptr<Tally> tally_;
 };
 
 }  // namespace laterna::bake

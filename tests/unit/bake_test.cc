@@ -249,7 +249,7 @@ TEST(Bake, GoesOnWhereItWasStopped) {
   settings.options.threads = 1;
   const Result<BakedScene> whole = bake_light(scene, settings);
   ASSERT_TRUE(whole);
-  ASSERT_EQ(whole->report.strips, 3U);
+  ASSERT_EQ(whole->report.parts, 3U);
   settings.work_file = folder.path() / "floor.glb";
   settings.resume = true;
   const Result<BakedScene> stopped = bake_light(scene, settings, [](double done) { return done < 0.8; });
@@ -260,17 +260,23 @@ TEST(Bake, GoesOnWhereItWasStopped) {
   std::filesystem::resize_file(folder.path() / "floor.glb.bake-0-1", 1000);
   const Result<BakedScene> resumed = bake_light(scene, settings);
   ASSERT_TRUE(resumed);
-  EXPECT_EQ(resumed->report.resumed_strips, 1U);
+  EXPECT_EQ(resumed->report.resumed_parts, 1U);
   EXPECT_EQ(numbers_of(*resumed), numbers_of(*whole));
   // Parts stay until what was baked is written. What only looks like one is not touched.
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "floor.glb.bake-0-2"));
   std::ofstream(folder.path() / "floor.glb.bake-9-9") << "somebody's notes";
+  std::ofstream(folder.path() / "floor.glb.bake-9-8");
+  std::ofstream(folder.path() / ".floor.glb.bake-0-9.1a2b.part");  // ours, of a run that was killed
+  EXPECT_EQ(bake_parts(settings.work_file).size(), 4U);
   std::filesystem::copy_file(folder.path() / "floor.glb.bake-0-2", folder.path() / "floor.glb.bake-7-1");
   std::filesystem::copy_file(folder.path() / "floor.glb.bake-0-2", folder.path() / "other.glb.bake-0-2");
   remove_bake_parts(settings.work_file);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "floor.glb.bake-0-2"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "floor.glb.bake-7-1"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "floor.glb.bake-9-9"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "floor.glb.bake-9-8"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / ".floor.glb.bake-0-9.1a2b.part"));
+  EXPECT_TRUE(bake_parts(settings.work_file).empty());
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "other.glb.bake-0-2"));
 }
 
@@ -298,6 +304,48 @@ TEST(Bake, ReflectedLightGoesOnWhereItWasStopped) {
   ASSERT_TRUE(resumed);
   EXPECT_EQ(numbers_of(*resumed), numbers_of(*whole));
   EXPECT_LT(4 * calls, 3 * calls_of_whole);
+  EXPECT_EQ(resumed->report.parts, whole->report.parts);
+  EXPECT_EQ(whole->report.resumed_parts, 0U);
+  EXPECT_GE(resumed->report.resumed_parts, resumed->report.parts / 2);
+  EXPECT_LT(resumed->report.resumed_parts, resumed->report.parts);
+}
+
+// All luxels that hold light are counted, once. A triangle that is thinner than rounding says nothing of the density.
+TEST(Bake, CountsWhatItHasDone) {
+  Scene scene;
+  Mesher mesher;
+  mesher.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1});
+  mesher.triangle({2, 0, 1}, {3, 0, 1}, {2.5F, 0, 1 - 1e-6F});
+  add_object(scene, "floor", mesher.primitive);
+  add_light(scene, bulb("lamp", 10), {0, 1, 0}, {1, 0, 0});
+  BakeSettings settings;
+  settings.padding = 3;
+  const Result<BakedScene> baked = bake_light(scene, settings);
+  ASSERT_TRUE(baked);
+  EXPECT_EQ(baked->report.thin_triangles, 1U);
+  EXPECT_NEAR(baked->report.least_density, 16, 0.6);
+  EXPECT_NEAR(baked->report.greatest_density, 16, 1);
+  std::size_t lit = 0;
+  for (const Picture& picture : baked->scene.pictures) {
+    const std::span<const float> rgb = picture.pixels->values<float>();
+    for (std::size_t i = 0; i < rgb.size(); i += 3) lit += rgb[i] > 0 ? 1 : 0;
+  }
+  EXPECT_EQ(lit, baked->report.lit_luxels + baked->report.padding_luxels);
+  EXPECT_GE(baked->report.lit_luxels, 33U * 33U);
+  EXPECT_GT(baked->report.padding_luxels, 100U);
+}
+
+// A disk that cannot be written costs no light: it is told.
+TEST(Bake, PartsThatCannotBeKeptAreTold) {
+  Scene scene;
+  add_object(scene, "floor", floor(1));
+  add_light(scene, bulb("lamp", 10), {0, 1, 0}, {1, 0, 0});
+  BakeSettings settings;
+  settings.work_file = "/nowhere/floor.glb";
+  const Result<BakedScene> baked = bake_light(scene, settings);
+  ASSERT_TRUE(baked);
+  ASSERT_EQ(baked->scene.warnings.size(), 1U);
+  EXPECT_NE(to_string(baked->scene.warnings[0]).find("were not kept"), std::string::npos);
 }
 
 // The lights that the first maps hold are gone from the scene.
