@@ -52,6 +52,8 @@ struct BakeSettings {
   int occlusion_rays = 0;
   double occlusion_distance =
       std::numeric_limits<double>::infinity();  ///< metres: what is farther away hides nothing
+  /// Where a smooth surface is cut open for its light map, luxels on both sides are changed until they read alike, by as little as it takes.
+  bool join_seams = true;
   bool unwrap_all = false;  ///< surfaces are laid out anew even where their second texture coordinates serve
   BakeInto into = BakeInto::light_maps;
   /// BakeInto::emissive: factor on radiance, such that 1 is a viewer's white; of the whole scene, the environment and what is

@@ -20,6 +20,7 @@
 #include "bake/own_frame.h"
 #include "bake/page_light.h"
 #include "bake/part_files.h"
+#include "bake/seams.h"
 #include "bake/seen_light.h"
 #include "bake/still_meshes.h"
 #include "base/refuse.h"
@@ -191,10 +192,8 @@ class Baker {
     render::ProgressReport progress(direct_progress, steps);
     begin(BakeStage::direct_light);
     for (std::size_t page = 0; page < layout_.pages.size(); ++page) {
-      std::vector<bool> is_on_page;
-      for (const int other : layout_.page_of_material) is_on_page.push_back(other == static_cast<int>(page));
-      is_on_page.push_back(false);  // glTF's default material
-      triangles_.push_back(std::make_unique<PageTriangles>(*frame, is_on_page, layout_.pages[page].size));
+      triangles_.push_back(
+          std::make_unique<PageTriangles>(*frame, materials_of(page), layout_.pages[page].size));
       const PageContext context = {*frame,
                                    *rays,
                                    *triangles_.back(),
@@ -212,9 +211,12 @@ class Baker {
       if (Result<void> added = add_bounces(*frame, rays, part_of_progress(direct_part, 1), files); !added)
         return added;
     }
-    if (settings_.into == BakeInto::emissive) {
+    const bool is_shown = settings_.into == BakeInto::emissive;
+    if (is_shown) {
       if (Result<void> shown = show(*frame, rays); !shown) return shown;
     }
+    if (settings_.join_seams) join_all(**own);
+    if (is_shown) report_.exposure = encode_pages(pages_, settings_.exposure);
     continue_all();
     report_.parts = files.tally().asked;
     report_.resumed_parts = files.tally().found;
@@ -232,11 +234,9 @@ class Baker {
     if (!environment) return tl::unexpected(environment.error());
     const double side = 1 / settings_.density;
     const LuxelSurfaces surfaces(frame, rays, side / settings_.samples, set_);
-    const Showing showing = {scene_.ambient,
-                             *environment ? &**environment : nullptr,
-                             {settings_.samples, side},
-                             settings_.exposure};
-    report_.exposure = make_visible({frame, *rays, surfaces}, triangles_, showing, pages_);
+    const Showing showing = {
+        scene_.ambient, *environment ? &**environment : nullptr, {settings_.samples, side}};
+    show_surfaces({frame, *rays, surfaces}, triangles_, showing, pages_);
     return {};
   }
 
@@ -322,6 +322,27 @@ class Baker {
     for (std::size_t i = 0; i < values.is_found.size(); ++i)
       pictures.is_found[static_cast<std::size_t>(first) + i] = values.is_found[i] > 0 ? 1 : 0;
     report_.lit_luxels += static_cast<std::size_t>(std::ranges::count(values.is_found, 1.0F));
+  }
+
+  void join_all(const OwnFrame& own) {
+    const frame::TriangleNeighbours neighbours = frame::place_neighbours(
+        std::make_shared<const frame::MeshNeighbours>(frame::find_mesh_neighbours(scene_, own.meshes, pool_)),
+        scene_, own.meshes);
+    for (std::size_t page = 0; page < pages_.size(); ++page) {
+      const std::vector<SeamPoint> seams =
+          find_seams(own.frame, neighbours, materials_of(page), layout_.pages[page].size);
+      for (Image* picture : {pages_[page].front.get(), pages_[page].back.get()}) {
+        if (picture != nullptr) join_seams(seams, *picture);
+      }
+    }
+  }
+
+  // Whether materials are on a page, and glTF's default material, which is on none.
+  [[nodiscard]] std::vector<bool> materials_of(std::size_t page) const {
+    std::vector<bool> is_on_page;
+    for (const int other : layout_.page_of_material) is_on_page.push_back(other == static_cast<int>(page));
+    is_on_page.push_back(false);
+    return is_on_page;
   }
 
   void continue_all() {

@@ -86,11 +86,14 @@ std::shared_ptr<Image> encoded(const Image& linear, float exposure) {
 
 }  // namespace
 
-float make_visible(const SeenScene& scene, std::span<const std::unique_ptr<PageTriangles>> triangles,
+void show_surfaces(const SeenScene& scene, std::span<const std::unique_ptr<PageTriangles>> triangles,
                    const Showing& showing, std::span<BakedPage> pages) {
   for (std::size_t page = 0; page < pages.size(); ++page)
     show_page(scene, *triangles[page], showing, pages[page]);
-  const float exposure = showing.exposure > 0 ? showing.exposure : exposure_for(pages);
+}
+
+float encode_pages(std::span<BakedPage> pages, float exposure) {
+  if (!(exposure > 0)) exposure = exposure_for(pages);
   for (BakedPage& page : pages) {
     page.front = encoded(*page.front, exposure);
     if (page.back != nullptr) page.back = encoded(*page.back, exposure);

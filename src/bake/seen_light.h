@@ -18,18 +18,21 @@ struct SeenScene {
   const LuxelSurfaces& surfaces;  ///< at the receivers of luxels
 };
 
-/// What falls on surfaces beside what their pages say, and how it is shown.
+/// What falls on surfaces beside what their pages say.
 struct Showing {
   /// Both held back by pages' occlusion and by materials' occlusion textures.
   glm::vec3 ambient{0};                                ///< Scene::ambient
   const EnvironmentIrradiance* environment = nullptr;  ///< null: none
   ReceiverSettings receivers;                          ///< places in a luxel whose mean it shows
-  float exposure = 0;  ///< factor on radiance; 0: automatic_exposure() of all luxels that are read
 };
 
 /// Puts in place of irradiance E, in every page, what is seen: reflectance · ((E + E of the environment) / π + ambient) + what
-/// the surface gives off, times the exposure, in 8-bit sRGB. Returns the exposure. `triangles`: of each page.
-float make_visible(const SeenScene& scene, std::span<const std::unique_ptr<PageTriangles>> triangles,
+/// the surface gives off. `triangles`: of each page.
+void show_surfaces(const SeenScene& scene, std::span<const std::unique_ptr<PageTriangles>> triangles,
                    const Showing& showing, std::span<BakedPage> pages);
+
+/// What is seen, times the exposure, in 8-bit sRGB; occlusion, which is in it, goes. `exposure`: a factor; 0:
+/// automatic_exposure() of all luxels that are read. Returns it.
+float encode_pages(std::span<BakedPage> pages, float exposure);
 
 }  // namespace laterna::bake
