@@ -48,6 +48,21 @@ void blacken(Material& material) {
   material.relief = nullptr;
 }
 
+// glTF's colours end at 1: what would be brighter keeps its hue.
+void expose_unlit(Material& material, float exposure, std::vector<Diagnostic>& warnings) {
+  const glm::vec3 color(material.base_color);
+  const float brightest = std::max({color.r, color.g, color.b});
+  const float factor = brightest > 0 ? std::min(exposure, std::max(1.0F, brightest) / brightest) : exposure;
+  material.base_color = glm::vec4(color * factor, material.base_color.a);
+  if (factor < exposure)
+    warnings.push_back(
+        {{},
+         fmt::format("material \"{}\"", material.name),
+         fmt::format("needs no light, and glTF's colours end at 1: shown times {:.4g}, what is "
+                     "baked times {:.4g}",
+                     factor, exposure)});
+}
+
 Primitive turned_over(Primitive primitive, int material) {
   for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
     std::swap(primitive.indices[i], primitive.indices[i + 1]);
@@ -119,22 +134,24 @@ void show_as_emission(Scene& scene, const LightMapLayout& layout, std::vector<Ba
 }
 
 void expose(Scene& scene, const LightMapLayout& layout, float exposure) {
-  scene.ambient *= exposure;
-  if (scene.background) *scene.background *= exposure;
-  if (scene.environment) scene.environment->intensity *= double{exposure};
+  const auto exposed = [&](const glm::vec3& color) {
+    return glm::min(color * exposure, static_cast<float>(kMaxRadiance));
+  };
+  scene.ambient = exposed(scene.ambient);
+  if (scene.background) scene.background = exposed(*scene.background);
+  if (scene.environment)
+    scene.environment->intensity = std::min(scene.environment->intensity * double{exposure}, kMaxRadiance);
   for (Light& light : scene.lights) {
     light.intensity *= double{exposure};
     if (light.lumens) *light.lumens *= double{exposure};
   }
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+  for (std::size_t m = 0; m < layout.page_of_material.size(); ++m) {
     Material& material = scene.materials[m];
-    const bool is_baked = m >= layout.page_of_material.size() || layout.page_of_material[m] >= 0;
-    if (is_baked) continue;
+    if (layout.page_of_material[m] >= 0) continue;
     if (material.unlit) {
-      const glm::vec3 shown = glm::min(glm::vec3(material.base_color) * exposure, 1.0F);
-      material.base_color = glm::vec4(shown, material.base_color.a);
+      expose_unlit(material, exposure, scene.warnings);
     } else {
-      material.emissive *= exposure;
+      material.emissive = exposed(material.emissive);
     }
   }
 }

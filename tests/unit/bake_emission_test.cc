@@ -126,6 +126,25 @@ TEST(BakedEmission, HoldsTheEnvironmentsLight) {
   }
 }
 
+// Baked occlusion holds light from all around back, as the occlusion texture beside light maps does.
+TEST(BakedEmission, OcclusionHoldsTheEnvironmentBack) {
+  Scene scene;
+  add_object(scene, "floor", floor(0.5F), {0.5F, 0.4F, 0.2F});
+  add_object(scene, "wall", wall(0.5F, 0.5F, -0.3F), {0.3F, 0.6F, 0.7F});
+  put_sky(scene);
+  BakeSettings settings = into_emission();
+  settings.density = 64;
+  settings.occlusion_rays = 256;
+  const Result<BakedScene> baked = bake_light(scene, settings);
+  settings.into = BakeInto::light_maps;
+  const Result<BakedScene> beside_maps = bake_light(scene, settings);
+  ASSERT_TRUE(baked && beside_maps);
+  const View view = look({0.2, 0.6, 2}, {0, 0, -0.2}, 20, 1);
+  const LayeredImage expected = seen_of(beside_maps->scene, view);
+  EXPECT_LT(at(expected, "R", 12, 12), 0.9F * at(seen_of(scene, view), "R", 12, 12));
+  EXPECT_LT(largest_difference(expected, seen_of(baked->scene, view)), 0.012);
+}
+
 // What is baked mirrors nothing, even of a bright environment, at any angle.
 TEST(BakedEmission, ReflectsNothing) {
   Scene scene = floor_below_a_lamp();
@@ -198,9 +217,11 @@ TEST(BakedEmission, ExposureIsThatOfAllThings) {
   EXPECT_EQ(after.environment->intensity, 1.4);
   EXPECT_EQ(after.ambient, glm::vec3(1));
   EXPECT_EQ(*after.background, glm::vec3(0.2F));
-  EXPECT_EQ(after.materials[1].base_color, glm::vec4(0.4F, 1, 0.8F, 1));
+  EXPECT_EQ(after.materials[1].base_color, glm::vec4(0.25F, 1, 0.5F, 1));
   EXPECT_EQ(after.materials[2].emissive, glm::vec3(0.6F));
   EXPECT_EQ(after.materials[2].lobes, glass);
+  ASSERT_FALSE(after.warnings.empty());
+  EXPECT_NE(to_string(after.warnings.back()).find("\"sign\""), std::string::npos);
 }
 
 // Lights that would shine on what reflects none.
