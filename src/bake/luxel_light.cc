@@ -168,7 +168,16 @@ OcclusionRays::OcclusionRays(const trace::RayScene& rays, int count, double dist
   }
 }
 
-float OcclusionRays::openness(const Receiver& receiver, bool of_back) const {
+float OcclusionRays::openness(std::span<const Receiver> receivers, bool of_back) const {
+  const auto shares = static_cast<int>(std::min(receivers.size(), directions_.size()));
+  float sum = 0;
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+    sum += openness(receivers[i], of_back, {static_cast<int>(i) % shares, shares});
+  return sum / static_cast<float>(receivers.size());
+}
+
+// Every count-th direction: these fill the hemisphere evenly, too.
+float OcclusionRays::openness(const Receiver& receiver, bool of_back, SampleIndex share) const {
   const glm::vec3 normal = (of_back ? -1.0F : 1.0F) * receiver.shading_normal_ws;
   const glm::vec3 front = (of_back ? -1.0F : 1.0F) * receiver.normal_ws;
   glm::vec3 u, v;
@@ -177,7 +186,9 @@ float OcclusionRays::openness(const Receiver& receiver, bool of_back) const {
   for (int k = 0; k < 3; ++k) farthest = std::max(farthest, std::abs(receiver.position_ws[k]));
   const float near = 2 * farthest * kRounding;
   int open = 0, all = 0;
-  for (const glm::vec3& local : directions_) {
+  for (auto i = static_cast<std::size_t>(share.index); i < directions_.size();
+       i += static_cast<std::size_t>(share.count)) {
+    const glm::vec3& local = directions_[i];
     const glm::vec3 direction = u * local.x + v * local.y + normal * local.z;
     // Smooth normals send some rays below the surface itself: these say nothing.
     if (!(glm::dot(direction, front) > 0)) continue;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/luxel_receivers.h"
+#include "base/sample_sequence.h"
 #include "light/light_plan.h"
 #include "shade/illumination.h"
 #include "shade/shadow_tone.h"
@@ -46,14 +47,17 @@ class DirectLight {
   std::vector<BakedLight> lights_;
 };
 
-/// How much of the light from all sides arrives at each receiver: by so many rays, spread by the cosine of their angle to the
+/// How much of the light from all sides arrives at a luxel: by so many rays, spread by the cosine of their angle to the
 /// normal, that meet nothing opaque within `distance` metres.
 class OcclusionRays {
  public:
   OcclusionRays(const trace::RayScene& rays, int count, double distance);
-  [[nodiscard]] float openness(const Receiver& receiver, bool of_back) const;
+  /// 0 … 1. `receivers`: of one luxel. Each sends its share of the rays.
+  [[nodiscard]] float openness(std::span<const Receiver> receivers, bool of_back) const;
 
  private:
+  [[nodiscard]] float openness(const Receiver& receiver, bool of_back, SampleIndex share) const;
+
   const trace::RayScene& rays_;
   float distance_;
   std::vector<glm::vec3> directions_;  // about +Z

@@ -53,13 +53,10 @@ class TileLight {
 
   void find_openness(glm::ivec2 tile) {
     for_luxels(tile, [&](std::size_t place, std::size_t first, std::size_t end) {
-      float sum = 0;
-      for (std::size_t i = first; i < end; ++i) {
-        sum += context_.occlusion->openness(receivers_[i], false);
-        if (!values_.back.empty()) sum += context_.occlusion->openness(receivers_[i], true);
-      }
-      const auto sides = static_cast<float>(values_.back.empty() ? 1 : 2);
-      values_.openness[place] = sum / (sides * static_cast<float>(end - first));
+      const std::span<const Receiver> receivers = std::span(receivers_).subspan(first, end - first);
+      float& openness = values_.openness[place];
+      openness = context_.occlusion->openness(receivers, false);
+      if (!values_.back.empty()) openness = 0.5F * (openness + context_.occlusion->openness(receivers, true));
     });
   }
 

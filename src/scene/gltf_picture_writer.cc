@@ -8,6 +8,7 @@
 #include "base/file_io.h"
 #include "image/encoder.h"
 #include "image/layers.h"
+#include "laterna/material_lobes.h"
 #include "scene/uri.h"
 
 namespace laterna::gltf {
@@ -85,14 +86,27 @@ std::string Surroundings::add(const std::string& name, std::vector<std::byte> by
 
 std::string PictureWriter::place(int picture) const { return fmt::format("pictures[{}]", picture); }
 
+// Not what is linear in files, too: roughness, normals, occlusion.
+bool PictureWriter::is_color(int picture) const {
+  const auto shows = [&](const Material& material) {
+    const MaterialLobes* lobes = material.lobes.get();
+    return material.base_color_texture.picture == picture || material.emissive_texture.picture == picture ||
+           (lobes != nullptr && (lobes->specular.color_texture.picture == picture ||
+                                 lobes->sheen.color_texture.picture == picture));
+  };
+  return std::ranges::any_of(scene_.materials, shows) ||
+         std::ranges::any_of(scene_.lights, [&](const Light& light) {
+           return light.slide == picture && !light.slide_is_intensity;
+         });
+}
+
 Result<PictureWriter::Encoded> PictureWriter::encoded(int picture) const {
   const Picture& source = at(picture);
   Encoded result;
   if (source.pixels != nullptr) {
     const Image& pixels = *source.pixels;
-    if (pixels.type() != PixelType::f32 && pixels.transfer() == Transfer::linear)
-      document_.warn(place(picture),
-                     "of 8 or 16 bits and linear: where it is read as a colour, files hold sRGB");
+    if (pixels.type() != PixelType::f32 && pixels.transfer() == Transfer::linear && is_color(picture))
+      document_.warn(place(picture), "of 8 or 16 bits and linear, and read as a colour: files hold sRGB");
     if (pixels.type() == PixelType::f32 && pixels.has_alpha())
       document_.warn(place(picture), "its colours are multiplied by alpha in a file: they come back rounded");
     if (pixels.type() != PixelType::f32) {

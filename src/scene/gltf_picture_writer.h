@@ -77,6 +77,7 @@ class PictureWriter {
     return scene_.pictures[static_cast<std::size_t>(picture)];
   }
   [[nodiscard]] std::string place(int picture) const;
+  [[nodiscard]] bool is_color(int picture) const;
   // The file's own bytes; pixels become the format that keeps them all.
   [[nodiscard]] Result<Encoded> encoded(int picture) const;
   Result<Encoded> as_png(int picture, Encoded file);

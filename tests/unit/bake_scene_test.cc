@@ -130,6 +130,18 @@ TEST(BakedThings, TexturesOfTheSecondCoordinatesStay) {
   }
 }
 
+// Occlusion is linear in files as well: nothing is said of it.
+TEST(BakedThings, OcclusionIsWrittenAsItIs) {
+  const TemporaryFolder folder;
+  BakeSettings settings;
+  settings.occlusion_rays = 16;
+  const Result<BakedScene> baked = bake_light(lit_floor(), settings);
+  ASSERT_TRUE(baked);
+  const Result<std::vector<Diagnostic>> written = write_scene(baked->scene, folder.path() / "baked.glb");
+  ASSERT_TRUE(written);
+  for (const Diagnostic& warning : *written) ADD_FAILURE() << to_string(warning);
+}
+
 // One note for each kind of thing.
 TEST(BakedThings, WhatIsLostIsTold) {
   Scene scene = lit_floor();
