@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "laterna/bake.h"
+#include "laterna/image_based_light.h"
 #include "laterna/material_lobes.h"
 #include "laterna/mirrors.h"
 #include "laterna/relief.h"
@@ -140,6 +141,42 @@ TEST(BakedThings, OcclusionIsWrittenAsItIs) {
   const Result<std::vector<Diagnostic>> written = write_scene(baked->scene, folder.path() / "baked.glb");
   ASSERT_TRUE(written);
   for (const Diagnostic& warning : *written) ADD_FAILURE() << to_string(warning);
+}
+
+// A lamp's light comes from the light map, the environment's comes to it live, neither of them twice: of a file, and on both
+// sides, the picture is that of the scene that was baked.
+TEST(BakedThings, TheEnvironmentStaysBesideLightMaps) {
+  const TemporaryFolder folder;
+  Scene scene = lit_floor();
+  scene.materials[0].double_sided = true;
+  scene.lights[0].intensity = 1;
+  scene.phong = PhongHighlight{0, 10};  // highlights are what light maps cannot keep
+  scene.environment.emplace();
+  scene.environment->picture = add_linear_picture(scene, 32, 16, [](int x, int y) {
+    return y < 8 ? glm::vec3(0.6F, 0.4F, 0.3F) : glm::vec3(0.1F, x < 16 ? 0.1F : 0.3F, 0.2F);
+  });
+  ASSERT_TRUE(filter_environment(scene, {32}));
+  const Result<BakedScene> baked = bake_light(scene, {});
+  ASSERT_TRUE(baked) << to_string(baked.error());
+  ASSERT_TRUE(write_scene(baked->scene, folder.path() / "baked.glb"));
+  Result<Scene> read = load_scene({folder.path() / "baked.glb"});
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_TRUE(read->lights.empty());
+  read->phong = scene.phong;  // which glTF has no place for
+  Scene lamp_alone = scene;
+  lamp_alone.environment.reset();
+  const Renderer live = make_renderer(scene), shown = make_renderer(*read), dark = make_renderer(lamp_alone);
+  for (const double side : {1.0, -1.0}) {
+    const View view = look({0, 2 * side, 0.1}, {0, 0, 0}, 20, 1, {0, 0, -1});
+    const LayeredImage expected = render(live, view, test_settings(16, 16));
+    const LayeredImage found = render(shown, view, test_settings(16, 16));
+    const LayeredImage without = render(dark, view, test_settings(16, 16));
+    for (const char* channel : {"R", "G", "B"}) {
+      const float value = at(expected, channel, 8, 8);
+      EXPECT_GT(value, at(without, channel, 8, 8) + 0.01F) << channel << side;
+      EXPECT_NEAR(at(found, channel, 8, 8), value, 0.01F * value) << channel << side;
+    }
+  }
 }
 
 // One note for each kind of thing.
