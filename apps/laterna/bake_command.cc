@@ -147,6 +147,9 @@ int run_bake(Options options) {
     return report(possible.error());
   if (options.stops && options.bake.into != BakeInto::emissive)
     return report(bad_option("--exposure belongs to --into emissive: light maps keep the light as it is"));
+  if (options.bake.keep_lights && options.bake.into == BakeInto::emissive)
+    return report(
+        bad_option("--keep-lights belongs to light maps: what is baked --into emissive reflects no light"));
   if (!options.quake.empty()) {
     if (options.bake.into == BakeInto::emissive)
       return report(bad_option("--quake shows light maps: leave --into emissive out"));

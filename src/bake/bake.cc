@@ -96,12 +96,15 @@ Result<void> check_lights_left(const Scene& scene, const std::vector<bool>& is_c
   return {};
 }
 
-void warn_of_lights_left(Scene& scene) {
+void warn_of_lights_left(Scene& scene, BakeInto into) {
   for (const Light& light : scene.lights) {
-    if (light.enabled && light.blend != BlendMode::add)
-      scene.warnings.push_back({{},
-                                fmt::format("light \"{}\"", light.name),
-                                "does more than add its light: it is not baked, and stays"});
+    if (!light.enabled || light.blend == BlendMode::add) continue;
+    scene.warnings.push_back({{},
+                              fmt::format("light \"{}\"", light.name),
+                              into == BakeInto::light_maps
+                                  ? "does more than add its light: it is not baked, and stays"
+                                  : "does more than add its light: it is not baked, and what is reflects "
+                                    "nothing of it"});
   }
 }
 
@@ -142,7 +145,7 @@ class Baker {
   }
 
   void prepare() {
-    if (settings_.lights.empty()) warn_of_lights_left(scene_);
+    if (settings_.lights.empty()) warn_of_lights_left(scene_, settings_.into);
     note_what_is_lost(scene_, is_baked_, settings_);
     if (!scene_.clips.empty()) {
       scene_.clips.clear();

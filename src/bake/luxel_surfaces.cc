@@ -92,6 +92,7 @@ class LuxelSurfaces::Batch {
       const std::size_t there = std::min(kGroupSize, which.size() - group * kGroupSize);
       samples_.active[group] = static_cast<std::uint16_t>((1U << there) - 1);
     }
+    has_occlusion_ = surface.occlusion_texture.chain != nullptr;
     find_surface_points_(side_.source, surface, samples_, points_);
     for (const frame::LayerBinding& layer : surface.layers) painter_.paint(surface, layer, samples_, points_);
   }
@@ -101,7 +102,7 @@ class LuxelSurfaces::Batch {
     return {glm::clamp(base * (1 - points_.metallic[i]), 0.0F, 1.0F),
             kPi32 * glm::vec3(points_.emissive_r[i], points_.emissive_g[i], points_.emissive_b[i]),
             {points_.normal_x_ws[i], points_.normal_y_ws[i], points_.normal_z_ws[i]},
-            points_.occlusion[i]};
+            has_occlusion_ ? std::optional(points_.occlusion[i]) : std::nullopt};
   }
 
  private:
@@ -119,6 +120,7 @@ class LuxelSurfaces::Batch {
   shade::FindSurfacePoints find_surface_points_;
   shadow::SurfaceSamples samples_;
   shade::SurfacePoints points_;
+  bool has_occlusion_ = false;
 };
 
 LuxelSurfaces::LuxelSurfaces(const frame::Frame& frame, const std::shared_ptr<const trace::RayScene>& rays,

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct MattSurface {
       0};  ///< of diffuse light, 0 … 1 per channel: base colour under its layers, without what is metal
   glm::vec3 exitance{0};   ///< what it gives off by itself, π times its radiance
   glm::vec3 normal_ws{0};  ///< unit, with normal maps, on the side that is asked for
-  float openness = 1;      ///< what the material's occlusion texture leaves of light from all sides
+  /// What the material's own occlusion texture leaves of light from all sides; unset: it has none.
+  std::optional<float> openness;
 };
 
 /// Receivers are looked at squarely enough from one of six sides, along the world's axes, in pictures whose pixels are about

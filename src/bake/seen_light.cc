@@ -13,13 +13,15 @@ namespace {
 
 constexpr float kInversePi = 0.31830989F;
 
-// What is seen of a surface on which `irradiance` falls.
+// What is seen of a surface on which `irradiance` falls. As beside light maps, a material's own occlusion texture stays, and what
+// was baked is for those that have none.
 glm::vec3 seen(const MattSurface& surface, const Showing& showing, float openness,
                const glm::vec3& irradiance) {
   glm::vec3 from_all_sides = showing.ambient;
   if (showing.environment != nullptr)
     from_all_sides += showing.environment->on(surface.normal_ws) * kInversePi;
-  return surface.reflectance * (irradiance * kInversePi + from_all_sides * (openness * surface.openness)) +
+  return surface.reflectance *
+             (irradiance * kInversePi + from_all_sides * surface.openness.value_or(openness)) +
          surface.exitance * kInversePi;
 }
 

@@ -20,7 +20,7 @@ struct SeenScene {
 
 /// What falls on surfaces beside what their pages say.
 struct Showing {
-  /// Both held back by pages' occlusion and by materials' occlusion textures.
+  /// Both held back by materials' occlusion textures; by pages' occlusion where there is none.
   glm::vec3 ambient{0};                                ///< Scene::ambient
   const EnvironmentIrradiance* environment = nullptr;  ///< null: none
   ReceiverSettings receivers;                          ///< places in a luxel whose mean it shows
