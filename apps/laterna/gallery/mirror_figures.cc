@@ -31,7 +31,7 @@ Shot show() {
   projector.attenuation = Attenuation::none;
   projector.intensity = 1.1;
   set_mood(scene, 0.12F);
-  shot.settings.accumulate = 16;
+  shot.settings.accumulate = 4;  // of four samples each
   return shot;
 }
 
