@@ -63,6 +63,7 @@ PUBLIC_HEADERS = {
     "shading.h": "shade",
     "shadows.h": "scene",
     "stages.h": "base",
+    "still_scene.h": "scene",
     "technique_choice.h": "scene",
     "terrain.h": "scene",
     "thrown_picture.h": "measure",

@@ -5,6 +5,7 @@
 #include <memory>
 #include <system_error>
 
+#include "laterna/still_scene.h"
 #include "laterna/write_scene.h"
 #include "outcome.h"
 #include "scene_options.h"
@@ -54,11 +55,10 @@ int run_convert(const Options& options) {
     return report(possible.error());
   Result<Scene> scene = options.scene.load();
   if (!scene) return report(scene.error());
-  if (options.is_still && !scene->clips.empty()) {
-    if (std::vector<Diagnostic> faults = validate(*scene); !faults.empty())
-      return report(Error(Failure::bad_input, std::move(faults)));
-    pose_scene(*scene, options.scene.time);
-    scene->clips.clear();
+  if (options.is_still && changes_with_time(*scene)) {
+    const Result<std::vector<Diagnostic>> stilled = make_still(*scene, options.scene.time);
+    if (!stilled) return report(stilled.error());
+    report_warnings(*stilled);
     fmt::print(stderr,
                "laterna: note: animation is left out: the file shows the scene at {} s, as --time asks\n",
                options.scene.time);
@@ -91,15 +91,16 @@ void declare_convert(CLI::App& app, Run& run) {
       "what\n"
       "a warning tells is not carried: layers on surfaces, photographs. Clips and paths go along, their "
       "numbers\n"
-      "in single precision; with --time the file shows that instant and does not move. Environments are "
-      "filtered\n"
-      "and packed into 8 bits (EXT_lights_image_based), which shows a little. Other programs see\n"
+      "in single precision; with --time the file shows that instant and does not move: waves stand still, "
+      "and of\n"
+      "films there is the frame that is then shown. Environments are filtered and packed into 8 bits\n"
+      "(EXT_lights_image_based), which shows a little. Other programs see\n"
       "projectors as spotlights; what only Laterna knows is in the glTF extensions LATERNA_projector and\n"
       "LATERNA_lighting, which they pass over. Beside a .gltf lie its .bin and those pictures that are not "
       "in its\n"
-      "folder already. Films stay where they are, and are named relative to the file. What cannot be carried "
-      "is\n"
-      "told as a warning.\n"
+      "folder already. Films stay where they are without --time, and are named relative to the file. What "
+      "cannot\n"
+      "be carried is told as a warning.\n"
       "\nExamples:\n"
       "  laterna convert room.glb --rig stage.json -o stage.glb\n"
       "  laterna convert house.obj --up z --unit cm -o house.glb\n"

@@ -18,6 +18,9 @@ struct Wave {
   std::optional<double> speed = std::nullopt;  ///< metres per second; unset: √(g length / 2π), of deep water
   double phase = 0;                            ///< radians, ±kMaxWavePhase
 };
+/// Radians, within ±kMaxWavePhase: the phase that such a wave would have at time 0 to be there as this one is at `seconds`. With
+/// speed 0 it is the wave's own, whatever the time.
+double phase_at(const Wave& wave, double seconds);
 
 /// What fills the space behind a mirror's front that is seen through: water. Light takes on its colour with the distance that
 /// it goes there: attenuation_color^(distance / attenuation_distance), Beer and Lambert as KHR_materials_volume has it.

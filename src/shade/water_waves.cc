@@ -9,16 +9,13 @@
 namespace laterna::shade {
 namespace {
 
-constexpr double kGravity = 9.80665;  // m/s²
-
 // The slope of a train of waves at a place, along its direction within the surface. Waves shorter than a few pixels flatten:
-// no picture shows them.
+// no picture shows them. Time comes in by the phase alone, so that waves stilled at that phase (make_still) have the same bits.
 double slope_of(const Wave& wave, double along, double seconds, double footprint) {
   const double shown = std::clamp(wave.length / (4 * footprint) - 0.5, 0.0, 1.0);
-  const double speed = wave.speed.value_or(std::sqrt(kGravity * wave.length / (2 * kPi)));
-  const double cycles = (along - speed * seconds) / wave.length;
+  const double cycles = along / wave.length;
   return shown * wave.amplitude * (2 * kPi / wave.length) *
-         cosine(2 * kPi * (cycles - std::floor(cycles)) + wave.phase);
+         cosine(2 * kPi * (cycles - std::floor(cycles)) + phase_at(wave, seconds));
 }
 
 }  // namespace

@@ -88,6 +88,53 @@ class Convert(unittest.TestCase):
             pictures.append(picture.read_bytes())
         self.assertEqual(pictures[0], pictures[1])
 
+    def test_water_and_films_stand_still_at_a_time(self):
+        for k in range(4):
+            pixels = bytes(value for i in range(5) for value in ((255, 255, 255) if i == k else (20, 60 * k, 60)))
+            (self.folder / f"f.{k}.ppm").write_bytes(b"P6 5 1 255\n" + pixels)
+        (self.folder / "still").mkdir()
+        rig, written = self.folder / "rig.json", self.folder / "still" / "a.gltf"
+        # The last one's phase would leave its limit, were it not brought back by a turn.
+        waves = [{"direction": [1, 0, 0.3], "length": 0.5, "amplitude": 0.01},
+                 {"direction": [0, 0, 1], "length": 0.31, "amplitude": 0.006, "speed": -0.7, "phase_deg": 36000},
+                 {"direction": [-1, 0, 1], "length": 0.77, "amplitude": 0.01, "speed": 0.9, "phase_deg": -35999}]
+        for at_end, time in (("hold", "0.17"), ("ping_pong", "1234.56"), ("black", "12")):
+            rig.write_text(json.dumps({
+                "surfaces": [{"material": "boards", "mirror": {"ior": 1.333, "waves": waves}}],
+                "lights": [{"name": "cinema", "type": "projector", "position": [0, 1.6, 1.5], "target": [0, 1, -2],
+                            "yfov_deg": 40, "candela": 300, "film": "f.#.ppm", "fps": 10, "at_end": at_end}]}))
+            with self.subTest(at_end=at_end):
+                source = [SCENES / "room.glb", "--rig", rig]
+                done = run("convert", *source, "--time", time, "-o", written)
+                self.assertEqual(done.returncode, OK, done.stderr)
+                self.assertEqual(done.stderr, "laterna: note: animation is left out: the file shows the scene at "
+                                              f"{time} s, as --time asks\n")
+                gltf = json.loads(written.read_text())
+                self.assertEqual([p["film"] for p in extensions(gltf["extensions"], "LATERNA_projector") if "film" in p], [])
+                told = [wave for m in extensions(gltf["materials"], "LATERNA_mirror") for wave in m["waves"]]
+                self.assertEqual([wave["speed"] for wave in told], [0, 0, 0])
+                self.assertLess(max(abs(wave["phase"]) for wave in told), 628.32)
+                pictures = []
+                for what in ([*source, "--time", time], [written], [written, "--time", "7.7"], source):
+                    picture = self.folder / "picture.exr"
+                    done = run("render", *what, "-o", picture, "--size", "96x64", "--samples", "1")
+                    self.assertEqual(done.returncode, OK, done.stderr)
+                    pictures.append(picture.read_bytes())
+                self.assertEqual(pictures[1:3], [pictures[0]] * 2)
+                self.assertNotEqual(pictures[3], pictures[0])
+
+    def test_a_frame_that_cannot_be_read_is_told(self):
+        for k in range(2):
+            (self.folder / f"f.{k}.ppm").write_bytes(b"P6 1 1 255\n" + bytes(3))
+        (self.folder / "f.1.ppm").write_bytes(b"P6 1 1 255\n")
+        rig, written = self.folder / "rig.json", self.folder / "a.gltf"
+        rig.write_text(json.dumps({"lights": [{"name": "cinema", "type": "projector", "position": [0, 1, 1],
+                                               "target": [0, 1, 0], "yfov_deg": 40, "candela": 300, "film": "f.#.ppm"}]}))
+        done = run("convert", SCENES / "room.glb", "--rig", rig, "--time", "1", "-o", written)
+        self.assertEqual(done.returncode, BAD_INPUT, done.stderr)
+        self.assertIn("f.1.ppm", done.stderr)
+        self.assertFalse(written.exists())
+
     def test_paths_go_along(self):
         rig = self.folder / "rig.json"
         rig.write_text(json.dumps({"cameras": [{"name": "main", "position": [0, 2, 6], "target": [0, 1, 0], "yfov_deg": 40,
