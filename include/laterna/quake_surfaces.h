@@ -47,6 +47,8 @@ class QuakeWalk {
   /// Errors: a faulty scene, none of whose materials has a light map; a faulty setting.
   static Result<QuakeWalk> create(Scene baked, const QuakeSettings& settings = {});
   ~QuakeWalk();
+  QuakeWalk(const QuakeWalk&) = delete;
+  QuakeWalk& operator=(const QuakeWalk&) = delete;
   QuakeWalk(QuakeWalk&&) noexcept;
   QuakeWalk& operator=(QuakeWalk&&) noexcept;
 

@@ -343,6 +343,7 @@ class Baker {
   // Whether materials are on a page, and glTF's default material, which is on none.
   [[nodiscard]] std::vector<bool> materials_of(std::size_t page) const {
     std::vector<bool> is_on_page;
+    is_on_page.reserve(layout_.page_of_material.size() + 1);
     for (const int other : layout_.page_of_material) is_on_page.push_back(other == static_cast<int>(page));
     is_on_page.push_back(false);
     return is_on_page;

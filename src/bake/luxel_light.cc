@@ -28,7 +28,7 @@ RasterView::Ray ray_about(const glm::dvec3& origin_ws) {
 
 std::unique_ptr<shadow::ShadowTechnique> make_shadow(const light::PlannedLight& planned,
                                                      const frame::Frame& frame,
-                                                     std::shared_ptr<const trace::RayScene> rays,
+                                                     const std::shared_ptr<const trace::RayScene>& rays,
                                                      InstructionSet set) {
   if (planned.technique == ShadowTechnique::none) return nullptr;
   auto opaque = std::make_unique<shadow::RayTracedShadow>(planned, rays);
@@ -123,8 +123,8 @@ class DirectLight::Batch {
   shadow::Arrival arrival_, toned_;
 };
 
-DirectLight::DirectLight(const frame::Frame& frame, std::shared_ptr<const trace::RayScene> rays, int points,
-                         InstructionSet set)
+DirectLight::DirectLight(const frame::Frame& frame, const std::shared_ptr<const trace::RayScene>& rays,
+                         int points, InstructionSet set)
     : frame_(frame),
       ray_(ray_about(0.5 * (glm::dvec3(frame.bounds.low) + glm::dvec3(frame.bounds.high)))),
       find_irradiance_(shade::find_irradiance_for(set)) {

@@ -21,7 +21,7 @@ namespace laterna::bake {
 class DirectLight {
  public:
   /// `points`: of lights that have a size. The frame must outlive this.
-  DirectLight(const frame::Frame& frame, std::shared_ptr<const trace::RayScene> rays, int points,
+  DirectLight(const frame::Frame& frame, const std::shared_ptr<const trace::RayScene>& rays, int points,
               InstructionSet set);
 
   /// Adds the irradiance of each receiver, n·l included, on its front or on its back.

@@ -161,7 +161,8 @@ class TileReceivers {
     const double area = flat_area > 0 ? patch.area() / (flat_area * n * n) : 0;
     for_luxels(flat.low(), flat.high(), [&](int x, int y) {
       for (int i = 0; i < n * n; ++i) {
-        const glm::dvec2 place(x + (i % n + 0.5) / n, y + (i / n + 0.5) / n);
+        const int row = i / n;
+        const glm::dvec2 place(x + (i % n + 0.5) / n, y + (row + 0.5) / n);
         if (!flat.holds(place)) continue;
         double squared = 0;
         inside_.push_back(patch.at(luxel_at(x, y), flat.nearest(place, squared), inset(), area));

@@ -65,6 +65,7 @@ class LuxelSurfaces::Side {
            shade::LightReach(*planned.placed, ShadingModel::papers), std::move(visibility)});
     }
   }
+  ~Side() = default;
   Side(const Side&) = delete;
   Side& operator=(const Side&) = delete;
 

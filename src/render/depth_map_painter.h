@@ -44,7 +44,7 @@ class DepthMapPainter final : public shadow::TilePainter {
   };
   /// `has_movers`: some of the frame's casters have kMoves.
   DepthMapPainter(const Source& source, std::optional<light::Warp> warp, bool has_movers)
-      : source_(source), warp_(std::move(warp)), began_with_movers_(has_movers) {}
+      : source_(source), warp_(warp), began_with_movers_(has_movers) {}
 
   /// Sorts the casters by tile with all threads, and says what that took. Without it the first tile does so by itself.
   StageTimes prepare(const raster::RasterView& view, const TaskPool& pool);

@@ -420,7 +420,7 @@ Result<RenderStatistics> PictureDrawer::draw_mean(const View& from, const Render
       return tl::unexpected(checked.error());
     const Result<PictureWriter> writer = PictureWriter::create(
         pictures.picture_settings(), pictures.picture_target(), frame(), instruction_set_);
-    const Result<RenderStatistics> one =
+    Result<RenderStatistics> one =
         draw_picture(*view, pictures.picture_settings(), sample, *writer, progress);
     if (!one) return one;
     if (progress.is_cancelled()) break;

@@ -20,6 +20,7 @@ class PosedScene {
  public:
   /// The pool must outlive it.
   PosedScene(Scene scene, const RendererOptions& options, const TaskPool& pool);
+  ~PosedScene() = default;
   PosedScene(const PosedScene&) = delete;
   PosedScene& operator=(const PosedScene&) = delete;
 

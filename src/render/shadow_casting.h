@@ -35,7 +35,7 @@ struct CastingContext {
 
 class ShadowCasting {
  public:
-  explicit ShadowCasting(CastingContext context) : context_(std::move(context)) {}
+  explicit ShadowCasting(const CastingContext& context) : context_(context) {}
 
   /// Null where nothing stands in the light's way. The plan must outlive the result; `index` is the light's in it.
   [[nodiscard]] std::unique_ptr<shadow::ShadowTechnique> make(const light::PlannedLight& planned,

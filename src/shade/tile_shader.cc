@@ -15,7 +15,6 @@ namespace laterna::shade {
 using raster::kTilePixels;
 using shadow::kGroupSize;
 using shadow::kMaxGroups;
-using shadow::SurfaceSamples;
 
 namespace {
 
