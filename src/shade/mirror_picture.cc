@@ -18,11 +18,12 @@ MirrorPicture::MirrorPicture(const light::MirrorView& seen, const Mirror& mirror
   finest.width = box_.x_end - box_.x_begin;
   finest.height = box_.y_end - box_.y_begin;
   finest.pixels.resize(static_cast<std::size_t>(finest.width) * static_cast<std::size_t>(finest.height));
-  if (needs_samples()) sample_radiance_.resize(finest.pixels.size() * samples_);
+  if (needs_samples()) kept_samples_.emplace(seen_.box, samples);
 }
 
 void MirrorPicture::write(int tile_x, int tile_y, const TileResult& tile) {
   constexpr int kSide = raster::kTileSide;
+  if (kept_samples_) kept_samples_->write(tile_x, tile_y, tile);
   Level& finest = levels_[0];
   const light::PixelBox& drawn = seen_.box;
   const int x_begin = std::max(drawn.x_begin, tile_x * kSide),
@@ -38,10 +39,6 @@ void MirrorPicture::write(int tile_x, int tile_y, const TileResult& tile) {
       const int column = seen_.is_refracted ? x : drawn_.width - 1 - x;
       const std::size_t pixel = row + static_cast<std::size_t>(column - box_.x_begin);
       finest.pixels[pixel] = {tile.beauty.r[i], tile.beauty.g[i], tile.beauty.b[i], nearness};
-      for (std::size_t s = 0; needs_samples() && s < samples_; ++s) {
-        const TileColor& sample = tile.samples[s];
-        sample_radiance_[pixel * samples_ + s] = {sample.r[i], sample.g[i], sample.b[i]};
-      }
     }
   }
 }
@@ -98,12 +95,11 @@ const glm::vec4& MirrorPicture::at(int x, int y) const {
 }
 
 glm::vec3 MirrorPicture::at_sample(int x, int y, std::size_t number) const {
-  if (!needs_samples()) return glm::vec3(at(x, y));
-  const int column = std::clamp(x, box_.x_begin, box_.x_end - 1) - box_.x_begin,
-            row = std::clamp(y, box_.y_begin, box_.y_end - 1) - box_.y_begin;
-  const std::size_t pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(levels_[0].width) +
-                            static_cast<std::size_t>(column);
-  return sample_radiance_[pixel * samples_ + number];
+  if (!kept_samples_) return glm::vec3(at(x, y));
+  const int column = std::clamp(x, box_.x_begin, box_.x_end - 1),
+            row = std::clamp(y, box_.y_begin, box_.y_end - 1);
+  const glm::vec3* samples = kept_samples_->at(drawn_.width - 1 - column, row);
+  return samples == nullptr ? glm::vec3(at(x, y)) : samples[number];
 }
 
 const glm::vec4& MirrorPicture::nearest(float x, float y) const {

@@ -4,10 +4,12 @@
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
 #include "laterna/mirrors.h"
 #include "light/mirror_plan.h"
+#include "shade/mirror_samples.h"
 #include "shade/tile_layers.h"
 
 namespace laterna::shade {
@@ -43,8 +45,8 @@ class MirrorPicture {
 
   /// Radiance, and 1 / metres along the axis (0: infinitely far), at a pixel of the view, held to what was drawn.
   [[nodiscard]] const glm::vec4& at(int x, int y) const;
-  /// Radiance of one sample of a pixel, the one that lies where the view's sample of that number does; where samples are not
-  /// kept, that of the pixel.
+  /// Radiance of one sample of a pixel, the one that lies where the view's sample of that number does; that of the pixel where
+  /// samples are not looked at, or all of them are nearly alike (MirrorSamples).
   [[nodiscard]] glm::vec3 at_sample(int x, int y, std::size_t number) const;
   /// The same between pixels' centres, x and y from the picture's corner, of means over 2^level × 2^level pixels.
   [[nodiscard]] glm::vec4 interpolated(float x, float y, int level) const;
@@ -77,7 +79,7 @@ class MirrorPicture {
   float farthest_ = 0;
   double deepest_ = 0;
   std::vector<Level> levels_;
-  std::vector<glm::vec3> sample_radiance_;  // of the finest level's pixels, those of a pixel side by side
+  std::optional<MirrorSamples> kept_samples_;  // where they are needed
 };
 
 }  // namespace laterna::shade
