@@ -27,6 +27,27 @@ const std::array<glm::vec2, kRays>& rays_of_cone() {
   return rays;
 }
 
+// Pixels: what is mirrored at a radius of less touches the mirror.
+constexpr float kContact = 1;
+
+// Of the pixels about one that looks past what it touches, that which lies deepest in it. Null: none touches. On the last pixel of
+// the mirror before a wall some samples see the wall's foot and some, which are not the mirror's, what lies behind it.
+template <class Radius>
+const glm::vec4* touching_beside(const MirrorPicture& picture, float x, float y, const Radius& radius_of) {
+  const glm::vec4* touching = nullptr;
+  float least = kContact;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const glm::vec4& tap = picture.nearest(x + static_cast<float>(dx), y + static_cast<float>(dy));
+      const float radius = radius_of(tap);
+      if (radius >= least) continue;
+      least = radius;
+      touching = &tap;
+    }
+  }
+  return touching;
+}
+
 }  // namespace
 
 // Behind the mirror by t they meet the picture on a circle whose radius grows with t, and each is followed outward to the first
@@ -66,6 +87,9 @@ glm::vec3 blurred(const MirrorPicture& picture, const raster::RasterView& view, 
   };
   // At a contact the rays of one side meet something sooner than the first step is long, and leave the picture beyond it.
   const float at_once = radius_of(picture.nearest(x, y));
+  if (at_once > kContact) {
+    if (const glm::vec4* touching = touching_beside(picture, x, y, radius_of)) return glm::vec3(*touching);
+  }
   const int first_step = at_once < widest / (kSteps * kSteps) ? 0 : 1;
   glm::vec3 sum(0);
   for (const glm::vec2& ray : rays_of_cone()) {

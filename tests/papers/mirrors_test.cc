@@ -284,16 +284,20 @@ TEST(Mirrors, WaterReflectsAsFresnelSays) {
 
 // Where a black wall meets a mirror nothing of the white behind both shines through, in means of many pictures too: mirrored
 // pictures sample the pixels where the picture does.
-TEST(Mirrors, LeaveNoGapAtContacts) {
+Scene black_wall_on_a_mirror(const Mirror& kind) {
   Scene scene = dark();
   Mesher mirror, black;
   mirror.quad({-1, -3, 3}, {-1, -3, -6}, {-1, 3, -6}, {-1, 3, 3});
   black.quad({-1, -3, -3}, {9, -3, -3}, {9, 3, -3}, {-1, 3, -3});
   add_object(scene, "mirror", mirror.primitive);
-  scene.materials.back().mirror = std::make_shared<const Mirror>();
+  scene.materials.back().mirror = std::make_shared<const Mirror>(kind);
   add_glowing(scene, "wall", black.primitive, glm::vec3(0));
   scene.background = glm::vec3(1);
-  const Renderer renderer = make_renderer(std::move(scene));
+  return scene;
+}
+
+TEST(Mirrors, LeaveNoGapAtContacts) {
+  const Renderer renderer = make_renderer(black_wall_on_a_mirror({}));
   const View view = look({0.3, 0, 0}, {-0.9, 0, -3}, 30, 2.5);
   const int contact = static_cast<int>(pixel_of(view, {-1, 0, -3}, 101, 40).x);
   for (const auto& [samples, accumulate] :
@@ -305,6 +309,24 @@ TEST(Mirrors, LeaveNoGapAtContacts) {
     for (int y = 10; y < 30; ++y) {
       for (int x = contact - 5; x < contact + 5; ++x)
         EXPECT_EQ(at(image, "R", x, y), 0) << samples << " samples: " << x << ", " << y;
+    }
+  }
+}
+
+// Rough ones neither, but for a trace: the last pixel before the wall is the mirror's in part, and its mean no surface's.
+TEST(Mirrors, RoughOnesLeaveNoGapAtContacts) {
+  Mirror rough;
+  rough.roughness = 0.3F;
+  const Renderer renderer = make_renderer(black_wall_on_a_mirror(rough));
+  const View view = look({0.3, 0, 0}, {-0.9, 0, -3}, 30, 2.5);
+  const int contact = static_cast<int>(pixel_of(view, {-1, 0, -3}, 101, 40).x);
+  for (const int samples : {1, 4, 16}) {
+    RenderSettings settings = test_settings(101, 40);
+    settings.samples = samples;
+    const LayeredImage image = render(renderer, view, settings);
+    for (int y = 10; y < 30; ++y) {
+      for (int x = contact - 5; x < contact + 5; ++x)
+        EXPECT_LE(at(image, "R", x, y), 0.03) << samples << " samples: " << x << ", " << y;
     }
   }
 }
