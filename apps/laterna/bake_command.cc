@@ -135,10 +135,7 @@ Result<BakedScene> bake(Scene scene, BakeSettings settings) {
   if (signal == 0) return baked;
   if (!baked && baked.error().failure == Failure::cancelled)
     fmt::print(stderr, "{}laterna: stopped: {}\n", line ? "\r\033[K" : "",
-               bake_parts(settings.work_file).empty()
-                   ? std::string("no part was finished yet")
-                   : fmt::format("what is finished lies beside {}, and --resume goes on with it",
-                                 settings.work_file.string()));
+               baked.error().diagnostics.front().message);
   end_by_signal(signal);
 }
 

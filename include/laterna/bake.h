@@ -82,7 +82,7 @@ struct BakeReport {
   std::size_t padding_luxels = 0;  ///< that continue a surface
   double used = 0;                 ///< surfaces' share of the pages' area
   /// Luxels per metre in any direction on any triangle but the thin ones, which are less than a hundredth of a luxel high:
-  /// rounding alone decides on theirs.
+  /// rounding tells on theirs.
   double least_density = 0, greatest_density = 0;
   std::size_t thin_triangles = 0;
   std::size_t bytes = 0;  ///< of the light maps in memory, and of occlusion
@@ -114,8 +114,6 @@ struct BakedScene {
 /// BakeInto::emissive, a light that is on and not among those to be baked.
 Result<BakedScene> bake_light(Scene scene, const BakeSettings& settings, const Progress& progress = {});
 
-/// The finished parts of any bake of this file, of other settings too.
-std::vector<std::filesystem::path> bake_parts(const std::filesystem::path& work_file);
 /// Removes the finished parts of any bake of this file, stopped ones of other settings too: after what was baked is written.
 void remove_bake_parts(const std::filesystem::path& work_file);
 

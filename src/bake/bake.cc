@@ -133,7 +133,7 @@ class Baker {
     if (!layout) return tl::unexpected(std::move(layout.error()));
     layout_ = std::move(*layout);
     report_.layout_ms = watch.lap_ms();
-    if (Result<void> lit = light(); !lit) return tl::unexpected(std::move(lit.error()));
+    if (Result<void> lit = light(); !lit) return tl::unexpected(with_parts(std::move(lit.error())));
     finish();
     report_.light_ms = watch.lap_ms();
     return BakedScene{std::move(scene_), std::move(report_)};
@@ -184,7 +184,7 @@ class Baker {
     const frame::Frame* frame = &(*own)->frame;
     const Result<image::ContentKey> content = key();
     if (!content) return tl::unexpected(content.error());
-    const PartFiles files(settings_.work_file, *content, settings_.resume);
+    files_ = PartFiles(settings_.work_file, *content, settings_.resume);
     const auto rays = std::make_shared<const trace::RayScene>(*frame);
     const DirectLight direct(*frame, rays, settings_.light_samples, set_);
     const OcclusionRays occlusion(*rays, settings_.occlusion_rays, settings_.occlusion_distance);
@@ -205,13 +205,13 @@ class Baker {
                                    {settings_.samples, 1 / settings_.density},
                                    pool_,
                                    progress};
-      light_page(page, context, files);
+      light_page(page, context, files_);
       if (progress.is_cancelled())
         return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
     }
     if (settings_.interreflection) {
       begin(BakeStage::reflected_light);
-      if (Result<void> added = add_bounces(*frame, rays, part_of_progress(direct_part, 1), files); !added)
+      if (Result<void> added = add_bounces(*frame, rays, part_of_progress(direct_part, 1), files_); !added)
         return added;
     }
     const bool is_shown = settings_.into == BakeInto::emissive;
@@ -221,10 +221,10 @@ class Baker {
     if (settings_.join_seams) join_all(**own);
     if (is_shown) report_.exposure = encode_pages(pages_, settings_.exposure);
     continue_all();
-    report_.parts = files.tally().asked;
-    report_.resumed_parts = files.tally().found;
-    if (files.tally().not_kept) {
-      Diagnostic note = files.tally().not_kept->diagnostics.front();
+    report_.parts = files_.tally().asked;
+    report_.resumed_parts = files_.tally().found;
+    if (files_.tally().not_kept) {
+      Diagnostic note = files_.tally().not_kept->diagnostics.front();
       note.message +=
           ": parts that were finished were not kept, and a run that is stopped could not go on from there";
       scene_.warnings.push_back(std::move(note));
@@ -251,6 +251,17 @@ class Baker {
         scene_, pool_, set_, settings_.options.environment_cache, settings_.options.environment_progress);
     if (!map) return tl::unexpected(map.error());
     return EnvironmentIrradiance(environment, map->irradiance);
+  }
+
+  // One who stops a bake wants to know whether it can go on.
+  [[nodiscard]] Error with_parts(Error error) const {
+    if (error.failure != Failure::cancelled) return error;
+    const std::size_t parts = files_.tally().found + files_.tally().kept;
+    error.diagnostics.front().message = parts == 0
+                                            ? std::string("no part was finished that could be resumed")
+                                            : fmt::format("{} finished parts lie beside {}, to be resumed",
+                                                          parts, settings_.work_file.string());
+    return error;
   }
 
   // By the number of rays for each luxel.
@@ -398,6 +409,7 @@ class Baker {
   LightMapLayout layout_;
   std::vector<std::unique_ptr<PageTriangles>> triangles_;  // by page
   std::vector<BakedPage> pages_;
+  PartFiles files_ = PartFiles::none();
   BakeReport report_;
 };
 

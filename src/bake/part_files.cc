@@ -50,13 +50,12 @@ bool is_name_of_part(std::string_view name, const std::string& file) {
   return !name.empty() && std::ranges::all_of(name, belongs);
 }
 
-// Begins as ours do. One that was being written when its program was killed may be empty still.
+// Begins as ours do: an empty file may be anybody's.
 bool begins_as_part(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::array<char, kMagic.size()> begin{};
   stream.read(begin.data(), begin.size());
-  const bool is_unfinished = path.filename().string().starts_with('.');
-  return begin == kMagic || (is_unfinished && stream.gcount() == 0);
+  return begin == kMagic;
 }
 
 }  // namespace
@@ -109,13 +108,17 @@ void PartFiles::keep(std::string_view part, const Values& values) const {
   header.sum = sum_of(std::span(bytes).subspan(sizeof header));
   std::memcpy(bytes.data(), &header, sizeof header);
   const Result<void> written = write_file(path_of(part), bytes);
-  if (!written && !tally_->not_kept) tally_->not_kept = written.error();
+  if (written) {
+    ++tally_->kept;
+  } else if (!tally_->not_kept) {
+    tally_->not_kept = written.error();
+  }
 }
 
 }  // namespace bake
 
-std::vector<std::filesystem::path> bake_parts(const std::filesystem::path& work_file) {
-  if (work_file.empty()) return {};
+void remove_bake_parts(const std::filesystem::path& work_file) {
+  if (work_file.empty()) return;
   const std::filesystem::path folder = work_file.has_parent_path() ? work_file.parent_path() : ".";
   const std::string name = work_file.filename().string();
   std::error_code failed;
@@ -127,12 +130,7 @@ std::vector<std::filesystem::path> bake_parts(const std::filesystem::path& work_
         bake::is_name_of_part(entry->path().filename().string(), name) && bake::begins_as_part(entry->path()))
       parts.push_back(entry->path());
   }
-  return parts;
-}
-
-void remove_bake_parts(const std::filesystem::path& work_file) {
-  std::error_code failed;
-  for (const std::filesystem::path& part : bake_parts(work_file)) std::filesystem::remove(part, failed);
+  for (const std::filesystem::path& part : parts) std::filesystem::remove(part, failed);
 }
 
 }  // namespace laterna

@@ -25,7 +25,7 @@ class PartFiles {
 
   /// What became of the parts that were looked for, those of every copy together. From one thread at a time.
   struct Tally {
-    std::size_t asked = 0, found = 0;
+    std::size_t asked = 0, found = 0, kept = 0;
     std::optional<Error> not_kept;  ///< why the first part that is in no file is in none
   };
 

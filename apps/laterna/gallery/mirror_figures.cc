@@ -61,7 +61,6 @@ void draw_room(Sitting& sitting) {
   floor.yfov = Angle::degrees(40);
   sitting.picture("A floor of polished stone: glancing looks are mirrored most.", floor);
   polished.roughness = 0.3F;
-  floor.settings.accumulate = 4;  // it is blurred as it is
   floor.scene.materials.back().mirror = std::make_shared<const Mirror>(polished);
   sitting.picture("The same floor, rough: what stands on it is sharp where it stands.", floor);
 }
