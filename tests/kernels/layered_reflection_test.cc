@@ -17,7 +17,6 @@ namespace {
 
 using shadow::kMaxGroups;
 using shadow::kMaxSamples;
-using shadow::SampleArray;
 
 const SheenAlbedo& sheen_table() {
   static const SheenAlbedo table = make_sheen_albedo(TaskPool(1));
@@ -290,8 +289,8 @@ double furnace(const reference::LayeredPoint& point, double n_v) {
   glm::dvec3 sum(0);
   for (int first = 0; first < kRings * kTurns; first += static_cast<int>(kMaxSamples)) {
     for (int i = 0; i < static_cast<int>(kMaxSamples); ++i) {
-      const double z = ((first + i) / kTurns + 0.5) / kRings,
-                   turn = 6.283185307 * (i % kTurns + 0.5) / kTurns;
+      const int ring = (first + i) / kTurns;
+      const double z = (ring + 0.5) / kRings, turn = 6.283185307 * (i % kTurns + 0.5) / kTurns;
       const double r = std::sqrt(1 - z * z);
       batch.set_directions(static_cast<std::size_t>(i), {r * std::cos(turn), r * std::sin(turn), z},
                            {std::sqrt(1 - n_v * n_v), 0, n_v});
