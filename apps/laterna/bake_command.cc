@@ -65,15 +65,19 @@ std::string text_of(const std::vector<BakeReport::Page>& pages) {
 void print_report(const BakeReport& r, const std::string& output) {
   std::string lights;
   for (const std::string& light : r.lights) lights += (lights.empty() ? "" : ", ") + light;
-  fmt::print("{}: {} surfaces in {} charts on {} light map{}: {}\n", output, r.surfaces, r.charts,
-             r.pages.size(), r.pages.size() == 1 ? "" : "s", text_of(r.pages));
+  const auto counted = [](std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  fmt::print("{}: {} in {} on {}{}{}\n", output, counted(r.surfaces, "surface"), counted(r.charts, "chart"),
+             counted(r.pages.size(), "light map"), r.pages.empty() ? "" : ": ", text_of(r.pages));
   fmt::print("  lights:  {}\n", lights.empty() ? "none" : lights);
   fmt::print(
       "  luxels:  {}, {} of them on surfaces, {} continue these, {:.1f} % of the area is surface, {:.1f} MB "
       "in memory\n",
       r.luxels, r.lit_luxels, r.padding_luxels, 100 * r.used, static_cast<double>(r.bytes) / 1e6);
-  fmt::print("  density: {:.4g} to {:.4g} luxels per metre{}\n", r.least_density, r.greatest_density,
-             r.thin_triangles == 0 ? "" : fmt::format(", but for {} thin triangles", r.thin_triangles));
+  if (r.greatest_density > 0)
+    fmt::print("  density: {:.4g} to {:.4g} luxels per metre{}\n", r.least_density, r.greatest_density,
+               r.thin_triangles == 0 ? "" : ", but for " + counted(r.thin_triangles, "thin triangle"));
   if (r.bounces > 0) fmt::print("  bounces: {}\n", r.bounces);
   if (r.exposure > 0) fmt::print("  shown:   radiance times {:.4g}, 1 is white\n", r.exposure);
   fmt::print("  time:    {:.2f} s laying out, {:.2f} s light", r.layout_ms / 1000, r.light_ms / 1000);
