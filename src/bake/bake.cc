@@ -239,7 +239,7 @@ class Baker {
     const LuxelSurfaces surfaces(frame, rays, side / settings_.samples, set_);
     const Showing showing = {
         scene_.ambient, *environment ? &**environment : nullptr, {settings_.samples, side}};
-    show_surfaces({frame, *rays, surfaces}, triangles_, showing, pages_);
+    show_surfaces({frame, *rays, surfaces, pool_}, triangles_, showing, pages_);
     return {};
   }
 
@@ -257,10 +257,10 @@ class Baker {
   [[nodiscard]] Error with_parts(Error error) const {
     if (error.failure != Failure::cancelled) return error;
     const std::size_t parts = files_.tally().found + files_.tally().kept;
-    error.diagnostics.front().message = parts == 0
-                                            ? std::string("no part was finished that could be resumed")
-                                            : fmt::format("{} finished parts lie beside {}, to be resumed",
-                                                          parts, settings_.work_file.string());
+    error.diagnostics.front().message =
+        parts == 0 ? std::string("no part was finished that could be resumed")
+                   : fmt::format("{} finished {} beside {}, to be resumed", parts,
+                                 parts == 1 ? "part lies" : "parts lie", settings_.work_file.string());
     return error;
   }
 

@@ -6,8 +6,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/triangle_clusters.h"
 

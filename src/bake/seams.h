@@ -21,7 +21,7 @@ struct SeamPoint {
 };
 
 /// Of the triangles of a page, about two to a luxel along each seam. Edges at which shading normals part are none: there the
-/// light changes with them. `materials`: whether triangles of a material are on the page.
+/// light changes with them; nor are bends of more than 45°. `materials`: whether triangles of a material are on the page.
 std::vector<SeamPoint> find_seams(const frame::Frame& frame, const frame::TriangleNeighbours& neighbours,
                                   const std::vector<bool>& materials, glm::ivec2 size);
 

@@ -46,18 +46,20 @@ void show_tile(std::span<const Receiver> receivers, std::span<const MattSurface>
 
 void show_page(const SeenScene& scene, const PageTriangles& triangles, const Showing& showing,
                BakedPage& page) {
-  std::vector<Receiver> receivers;
-  for (int y = 0; y < triangles.tiles().y; ++y) {
-    for (int x = 0; x < triangles.tiles().x; ++x) {
-      find_receivers(scene.frame, scene.rays, triangles, {x, y}, showing.receivers, receivers);
-      for (const bool of_back : {false, true}) {
-        Image* const picture = (of_back ? page.back : page.front).get();
-        if (picture == nullptr) continue;
-        show_tile(receivers, scene.surfaces.find(receivers, of_back), {x, y}, showing, page.occlusion.get(),
-                  *picture);
-      }
+  const glm::ivec2 tiles = triangles.tiles();
+  const auto show = [&](std::size_t index, int) {
+    const glm::ivec2 tile(static_cast<int>(index) % tiles.x, static_cast<int>(index) / tiles.x);
+    std::vector<Receiver> receivers;
+    find_receivers(scene.frame, scene.rays, triangles, tile, showing.receivers, receivers);
+    if (receivers.empty()) return;
+    for (const bool of_back : {false, true}) {
+      Image* const picture = (of_back ? page.back : page.front).get();
+      if (picture == nullptr) continue;
+      show_tile(receivers, scene.surfaces.find(receivers, of_back), tile, showing, page.occlusion.get(),
+                *picture);
     }
-  }
+  };
+  scene.pool.for_each(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y), show);
 }
 
 float exposure_for(std::span<const BakedPage> pages) {

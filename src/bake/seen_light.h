@@ -8,6 +8,7 @@
 #include "bake/environment_irradiance.h"
 #include "bake/luxel_receivers.h"
 #include "bake/luxel_surfaces.h"
+#include "base/task_pool.h"
 #include "frame/frame.h"
 
 namespace laterna::bake {
@@ -16,6 +17,7 @@ struct SeenScene {
   const frame::Frame& frame;
   const trace::RayScene& rays;
   const LuxelSurfaces& surfaces;  ///< at the receivers of luxels
+  const TaskPool& pool;
 };
 
 /// What falls on surfaces beside what their pages say.
