@@ -1,10 +1,10 @@
 # compile_together(TARGET APART file...): compiles the sources of a target six at a time, each group as one file that
 # includes them, so that headers are read and templates made once per group: a third less work. Files that would not go
-# with others stay apart. Not where ccache remembers objects: there a change would compile six files in place of one.
-option(LATERNA_COMPILE_TOGETHER "Compile sources in groups where there is no ccache" ON)
+# with others stay apart. In every build alike, with ccache or without, so that whoever gives two things one name sees it.
+option(LATERNA_COMPILE_TOGETHER "Compile sources in groups" ON)
 function(compile_together target)
   cmake_parse_arguments(PARSE_ARGV 1 TOGETHER "" "" "APART")
-  if(NOT LATERNA_COMPILE_TOGETHER OR CCACHE OR LATERNA_SANITIZE)
+  if(NOT LATERNA_COMPILE_TOGETHER OR LATERNA_SANITIZE)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)

@@ -303,8 +303,9 @@ std::vector<LightSample> sample_all_around(const image::EnvironmentPicture& pict
   std::uniform_real_distribution<double> uniform;
   std::vector<LightSample> samples;
   for (int i = 0; i < kGrid * kGrid; ++i) {
+    const int row = i / kGrid;
     const image::PanelPoint at{0, 2 * (i % kGrid + uniform(random)) / kGrid - 1,
-                               2 * (i / kGrid + uniform(random)) / kGrid - 1};
+                               2 * (row + uniform(random)) / kGrid - 1};
     const glm::dvec3 direction = image::direction_from_panel(EnvironmentChart::octahedral, at);
     samples.push_back({direction, picture.look_up(direction),
                        image::panel_density(EnvironmentChart::octahedral, at) * 4 / (kGrid * kGrid)});

@@ -308,6 +308,7 @@ TEST(Photometry, ProbesSeeWhatStandsInTheWay) {
     std::vector<double> lux;
     const Renderer renderer = make_renderer(scene);
     const ProbeReport report = renderer.measure_probes(probes, {}).value();
+    lux.reserve(report.readings.size());
     for (const ProbeReading& reading : report.readings) lux.push_back(reading.lux);
     return lux;
   };

@@ -17,6 +17,7 @@ using Candela = std::function<double(double vertical_deg, double horizontal_deg)
 /// From `first` to `last` in equal steps.
 inline std::vector<double> angles(double first, double last, int count) {
   std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     all.push_back(count == 1 ? first : first + (last - first) * i / (count - 1));
   return all;
@@ -45,6 +46,7 @@ struct IesText {
                       unit_and_opening + "\n" + factors + "\n" + numbers(vertical) + numbers(horizontal);
     for (const double h : horizontal) {
       std::vector<double> column;
+      column.reserve(vertical.size());
       for (const double v : vertical) column.push_back(candela(v, h));
       all += numbers(column);
     }

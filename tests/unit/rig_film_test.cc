@@ -11,12 +11,12 @@ namespace {
 
 using namespace testing_scenes;
 
-constexpr const char* kStand = R"("type": "projector", "position": [0, 5, 0], "target": [0, 0, -5], )";
+constexpr const char* kStandOfFilm = R"("type": "projector", "position": [0, 5, 0], "target": [0, 0, -5], )";
 
 Result<Scene> load(const TemporaryFolder& folder, const std::vector<std::string>& lights) {
   std::string text = R"({"lights": [)";
   for (std::size_t i = 0; i < lights.size(); ++i)
-    text += (i == 0 ? "\n{" : ",\n{") + std::string(kStand) + lights[i] + "}";
+    text += (i == 0 ? "\n{" : ",\n{") + std::string(kStandOfFilm) + lights[i] + "}";
   return load_scene({}, {.rigs = {folder.write("r.json", text + "]}")}});
 }
 
