@@ -55,9 +55,9 @@ TEST(EnvironmentLayers, AddUpToThePictureBitForBit) {
         settings.samples = samples;
         settings.passes = passes;
         settings.accumulate = accumulate;
-        const LayeredImage plain = render(renderer, kView, settings);
+        const LayeredImage plain = reference::render(renderer, kView, settings);
         settings.layers = {Layer::light};
-        const LayeredImage image = render(renderer, kView, settings);
+        const LayeredImage image = reference::render(renderer, kView, settings);
         for (const std::string channel : {"R", "G", "B"}) {
           EXPECT_EQ(plain.find(channel)->values, image.find(channel)->values);
           for (int i = 0; i < 48 * 48; ++i) {
@@ -77,22 +77,22 @@ TEST(EnvironmentLayers, StandBehindTheScene) {
   Scene scene = room_under(plain_sky({0.3F, 0.5F, 0.9F}));
   scene.background = glm::vec3(7);
   const View up = look({0, 3, 0}, {0, 9, 0.1}, 45, 1);
-  LayeredImage image = render(make_renderer(scene), up, test_settings(8, 8));
+  LayeredImage image = reference::render(make_renderer(scene), up, test_settings(8, 8));
   EXPECT_FLOAT_EQ(at(image, "B", 3, 3), 0.9F);
   EXPECT_EQ(at(image, "A", 3, 3), 1);
   scene.environment->visible = false;
-  image = render(make_renderer(scene), up, test_settings(8, 8));
+  image = reference::render(make_renderer(scene), up, test_settings(8, 8));
   EXPECT_EQ(at(image, "B", 3, 3), 7);
   scene.background.reset();
-  image = render(make_renderer(scene), up, test_settings(8, 8));
+  image = reference::render(make_renderer(scene), up, test_settings(8, 8));
   EXPECT_EQ(at(image, "A", 3, 3), 0);
 }
 
 // A picture may hold any finite number; what is too bright or less than dark is held to what sums can bear.
 TEST(EnvironmentLayers, AreNumbersWhateverTheirPictureHolds) {
   for (const float extreme : {3e38F, -5.0F}) {
-    const LayeredImage image =
-        render(make_renderer(room_under(plain_sky(glm::vec3(extreme)))), kView, test_settings(16, 16));
+    const LayeredImage image = reference::render(make_renderer(room_under(plain_sky(glm::vec3(extreme)))),
+                                                 kView, test_settings(16, 16));
     for (const char* channel : {"R", "G", "B"}) {
       for (const float value : image.find(channel)->values) {
         ASSERT_TRUE(std::isfinite(value)) << extreme;
@@ -107,9 +107,9 @@ TEST(EnvironmentLayers, LightMetersLeaveItOut) {
   Scene scene = room_under(plain_sky(glm::vec3(3)));
   RenderSettings settings = test_settings(32, 32);
   settings.layers = {Layer::lux, Layer::visibility};
-  const LayeredImage with = render(make_renderer(scene), kView, settings);
+  const LayeredImage with = reference::render(make_renderer(scene), kView, settings);
   scene.environment.reset();
-  const LayeredImage without = render(make_renderer(scene), kView, settings);
+  const LayeredImage without = reference::render(make_renderer(scene), kView, settings);
   EXPECT_EQ(with.find("lux.Y")->values, without.find("lux.Y")->values);
   EXPECT_EQ(with.find("visibility.lamp")->values, without.find("visibility.lamp")->values);
   EXPECT_EQ(without.find("environment.R"), nullptr);
@@ -170,7 +170,7 @@ TEST(EnvironmentFiles, GltfImageBasedLight) {
   const glm::dvec3 axes[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (int face = 0; face < 6; ++face) {
     const View view = look({0, 0, 9}, glm::dvec3(0, 0, 9) + axes[face], 10, 1, {0.1, 0.7, 0.7}, 10);
-    const LayeredImage image = render(renderer, view, test_settings(9, 9));
+    const LayeredImage image = reference::render(renderer, view, test_settings(9, 9));
     for (int k = 0; k < 3; ++k)
       EXPECT_NEAR(at(image, std::string(1, "RGB"[k]), 4, 4), colours[face][k] * 2.5F, 1e-5) << face;
   }
@@ -235,14 +235,14 @@ TEST(EnvironmentFiles, GltfFacesAndHarmonicsAreTheRightWayRound) {
     const glm::dvec3 toward(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
     if (toward == glm::dvec3(0)) continue;
     const View view = look({0, 0, 9}, glm::dvec3(0, 0, 9) + toward, 10, 1, {0.1, 0.7, 0.6}, 2);
-    const LayeredImage image = render(renderer, view, settings);
+    const LayeredImage image = reference::render(renderer, view, settings);
     for (int k = 0; k < 3; ++k)
       EXPECT_NEAR(at(image, std::string(1, "RGB"[k]), 4, 4), even_sky(toward)[k], 0.01) << i << ' ' << k;
   }
   for (int face = 0; face < 6; ++face) {
     const glm::dvec3 normal = direction_of_face(face, 0.5, 0.5);
     const View view = look(glm::dvec3(kBox) + 3.0 * normal, kBox, 10, 1, {0.1, 0.7, 0.6}, 2);
-    const LayeredImage image = render(renderer, view, settings);
+    const LayeredImage image = reference::render(renderer, view, settings);
     for (int k = 0; k < 3; ++k) {
       EXPECT_NEAR(at(image, std::string(1, "RGB"[k]), 4, 4), 0.5 + 0.4 * 2 / 3 * normal[k], 1e-4)
           << face << ' ' << k;
@@ -320,7 +320,7 @@ TEST(EnvironmentFiles, GltfImageBasedLightIsWritten) {
   const View view = look({1, 2, 8}, {0, 0, 0}, 45, 1);
   RenderSettings settings = test_settings(64, 64);
   settings.shading = ShadingModel::pbr;
-  const LayeredImage before = render(make_renderer(scene), view, settings);
+  const LayeredImage before = reference::render(make_renderer(scene), view, settings);
 
   ASSERT_TRUE(filter_environment(scene, {128}).has_value());
   ASSERT_EQ(scene.environment->specular_pictures.size(), 4U);
@@ -330,7 +330,7 @@ TEST(EnvironmentFiles, GltfImageBasedLightIsWritten) {
   const Scene read = load_or_fail({folder / "lit.glb"});
   ASSERT_TRUE(read.environment.has_value());
   EXPECT_EQ(*read.environment->irradiance, *scene.environment->irradiance);
-  const LayeredImage after = render(make_renderer(read), view, settings);
+  const LayeredImage after = reference::render(make_renderer(read), view, settings);
   double error = 0, sum = 0;
   for (const char* channel : {"R", "G", "B"}) {
     const std::vector<float>&a = before.find(channel)->values, &b = after.find(channel)->values;
@@ -406,7 +406,7 @@ TEST(EnvironmentCache, ChangesNoPicture) {
   options.environment_progress = [&](double) { return ++steps > 0; };
   const auto picture = [&] {
     const auto renderer = Renderer::create(room_under(plain_sky({1, 2, 3}, 8)), options);
-    return renderer ? render(*renderer, kView, test_settings(32, 32)).find("G")->values
+    return renderer ? reference::render(*renderer, kView, test_settings(32, 32)).find("G")->values
                     : std::vector<float>();
   };
   const std::vector<float> first = picture();

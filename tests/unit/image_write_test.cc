@@ -39,7 +39,7 @@ LayeredImage read_back(const std::filesystem::path& file) {
 
 void expect_written(const Result<void>& result) { ASSERT_TRUE(result) << to_string(result.error()); }
 
-std::string message(const Result<void>& result) { return result ? "no error" : to_string(result.error()); }
+std::string message_of(const Result<void>& result) { return result ? "no error" : to_string(result.error()); }
 
 bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
@@ -291,7 +291,7 @@ TEST(WriteImage, RefusesWhatAFormatCannotHold) {
     const Result<void> result = write_image(image, directory / name, options);
     EXPECT_TRUE(result || result.error().failure == Failure::bad_usage);
     const std::string prefix = directory.path().string() + "/";
-    const std::string text = message(result);
+    const std::string text = message_of(result);
     return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
   };
   EXPECT_EQ(write(depth_only, "a.png"), "a.png: a PNG needs channels R, G, B or Y; the picture has Z N.X");
@@ -325,7 +325,7 @@ TEST(WriteImage, RefusesWhatAFormatCannotHold) {
   EXPECT_EQ(write(reserved, "a.exr"), "a.exr: the metadata key \"type\" is one of OpenEXR's own");
   reserved.metadata = {{"", "value"}};
   EXPECT_EQ(write(reserved, "a.exr"), "a.exr: a metadata key must have 1 to 255 bytes");
-  EXPECT_EQ(message(write_image(Image(), directory / "a.png")).substr(directory.path().string().size()),
+  EXPECT_EQ(message_of(write_image(Image(), directory / "a.png")).substr(directory.path().string().size()),
             "/a.png: the picture is empty");
   EXPECT_TRUE(directory.names().empty());
 }

@@ -21,7 +21,7 @@ const Renderer& everything_renderer() {
   return renderer;
 }
 
-RenderSettings small_settings() {
+RenderSettings settings_of_target() {
   RenderSettings settings;
   settings.width = 90;
   settings.height = 70;
@@ -43,7 +43,7 @@ std::string error_of(const Renderer& renderer, const RenderSettings& settings,
 // ---------------------------------------------------------------------------------------------- the caller's memory
 
 TEST(RenderTarget, ChannelsGoWhereTheCallerWantsThemAndNowhereElse) {
-  RenderSettings settings = small_settings();
+  RenderSettings settings = settings_of_target();
   settings.layers = {Layer::depth, Layer::light};
   const LayeredImage expected = draw_layers(everything_renderer(), settings);
   constexpr std::size_t kStride = 101, kGuard = 17;
@@ -64,14 +64,14 @@ TEST(RenderTarget, ChannelsGoWhereTheCallerWantsThemAndNowhereElse) {
 TEST(RenderTarget, OneChannelMayBeWantedTwice) {
   std::vector<float> a(90 * 70), b(90 * 70);
   const RenderTarget target = {{}, {{"G", a.data(), 90}, {"G", b.data(), 90}}};
-  ASSERT_TRUE(everything_renderer().render_into(everything_view(90, 70), small_settings(), target));
+  ASSERT_TRUE(everything_renderer().render_into(everything_view(90, 70), settings_of_target(), target));
   EXPECT_EQ(a, b);
   EXPECT_NE(a, std::vector<float>(90 * 70));
 }
 
 TEST(RenderTarget, ATargetOfNothingStillGivesStatistics) {
   const Result<RenderStatistics> done =
-      everything_renderer().render_into(everything_view(90, 70), small_settings(), {});
+      everything_renderer().render_into(everything_view(90, 70), settings_of_target(), {});
   ASSERT_TRUE(done);
   EXPECT_GT(done->triangles, 1000U);
   EXPECT_GT(done->triangles_drawn, 100U);
@@ -80,7 +80,7 @@ TEST(RenderTarget, ATargetOfNothingStillGivesStatistics) {
 
 // "sRGB-encoded"; "with alpha, colour not premultiplied"; "exposure: factor on linear light before encoding".
 TEST(RenderTarget, EightBitPixelsAreTheEncodedBeauty) {
-  RenderSettings settings = small_settings();
+  RenderSettings settings = settings_of_target();
   settings.samples = 4;
   const LayeredImage linear = draw_layers(everything_renderer(), settings);
   for (const int channels : {3, 4}) {
@@ -119,7 +119,7 @@ TEST(RenderTarget, TargetsThatCannotHoldThePictureAreRefused) {
   const Renderer& renderer = everything_renderer();
   // The target's pointer is one to write to. NOLINTNEXTLINE(readability-non-const-parameter)
   const auto with_channel = [&](const char* name, float* pixels, std::size_t stride) {
-    return error_of(renderer, small_settings(), {{}, {{name, pixels, stride}}});
+    return error_of(renderer, settings_of_target(), {{}, {{name, pixels, stride}}});
   };
   EXPECT_EQ(with_channel("Z", memory.data(), 90), "these settings produce no channel \"Z\"");
   EXPECT_EQ(with_channel("r", memory.data(), 90), "these settings produce no channel \"r\"");
@@ -128,7 +128,7 @@ TEST(RenderTarget, TargetsThatCannotHoldThePictureAreRefused) {
   const auto with_color = [&](std::uint8_t* pixels, int channels, std::size_t stride) {
     RenderTarget target;
     target.color8 = ColorTarget8{pixels, channels, stride, 1};
-    return error_of(renderer, small_settings(), target);
+    return error_of(renderer, settings_of_target(), target);
   };
   EXPECT_EQ(with_color(bytes.data(), 2, 400), "an 8-bit target has 3 or 4 channels");
   EXPECT_EQ(with_color(bytes.data(), 3, 269), "the 8-bit target has no memory for a row");
@@ -140,7 +140,7 @@ TEST(RenderTarget, TargetsThatCannotHoldThePictureAreRefused) {
 
 TEST(RenderChannels, NamesAreThoseOfThePictureInItsOrder) {
   for (const Passes passes : {Passes::single, Passes::multi}) {
-    RenderSettings settings = small_settings();
+    RenderSettings settings = settings_of_target();
     settings.passes = passes;
     for (const std::vector<Layer>& layers :
          {std::vector<Layer>{}, {Layer::light}, {Layer::object, Layer::uv}, all_layers(passes)}) {
@@ -240,7 +240,7 @@ TEST(RenderSize, LargerAndSmallerAreRefused) {
 TEST(RenderSettingsCheck, SamplesArePowersOfTwoUpToSixteen) {
   const Renderer& renderer = everything_renderer();
   for (int samples = -1; samples <= 33; ++samples) {
-    RenderSettings settings = small_settings();
+    RenderSettings settings = settings_of_target();
     settings.samples = samples;
     const bool is_allowed = samples == 1 || samples == 2 || samples == 4 || samples == 8 || samples == 16;
     const std::string refusal = "samples per pixel must be 1, 2, 4, 8 or 16, not " + std::to_string(samples);
@@ -250,7 +250,7 @@ TEST(RenderSettingsCheck, SamplesArePowersOfTwoUpToSixteen) {
 
 TEST(RenderSettingsCheck, AnisotropyGoesFromOneToSixteen) {
   for (const int probes : {-1, 0, 1, 16, 17}) {
-    RenderSettings settings = small_settings();
+    RenderSettings settings = settings_of_target();
     settings.anisotropy = probes;
     const std::string refusal = "anisotropy must be from 1 to 16, not " + std::to_string(probes);
     EXPECT_EQ(error_of(everything_renderer(), settings), probes >= 1 && probes <= 16 ? "no error" : refusal);
@@ -261,7 +261,7 @@ TEST(RenderSettingsCheck, ViewsThatSeeNothingAreRefused) {
   const auto error_with = [](auto change) {
     View view = everything_view(90, 70);
     change(view);
-    const Result<LayeredImage> done = everything_renderer().render(view, small_settings());
+    const Result<LayeredImage> done = everything_renderer().render(view, settings_of_target());
     return done ? "no error" : to_string(done.error());
   };
   EXPECT_EQ(error_with([](View&) {}), "no error");

@@ -14,7 +14,7 @@ namespace {
 using reference::everything;
 using reference::same_bits;
 
-RenderSettings settings_of(int width, int height, std::vector<Layer> layers = {}) {
+RenderSettings settings_of_view(int width, int height, std::vector<Layer> layers = {}) {
   RenderSettings settings;
   settings.width = width;
   settings.height = height;
@@ -44,7 +44,7 @@ TEST(RenderCameras, ManyCamerasOnOneLoadedScene) {
   add_camera(scene, "front", front);
   add_camera(scene, "side", side);
   const Renderer renderer = reference::make_renderer(scene);
-  const RenderSettings settings = settings_of(120, 90);
+  const RenderSettings settings = settings_of_view(120, 90);
   for (const auto& [name, view] : {std::pair{"front", front}, {"side", side}, {"front", front}}) {
     const LayeredImage by_name =
         reference::render(renderer, renderer.camera_view(name, 120, 90).value(), settings);
@@ -146,7 +146,7 @@ TEST(RenderCameras, IntrinsicsHoldInThePicture) {
   const View view = {pose, Projection::from_intrinsics(kFx, kFy, kCx, kCy, kWidth, kHeight, 0.1, 100)};
   const LayeredImage picture =
       reference::render(reference::make_renderer(everything()), view,
-                        settings_of(kWidth, kHeight, {Layer::position, Layer::depth}));
+                        settings_of_view(kWidth, kHeight, {Layer::position, Layer::depth}));
   int seen = 0;
   for (int row = 0; row < kHeight; ++row) {
     for (int column = 0; column < kWidth; ++column) {
@@ -198,7 +198,7 @@ TEST(RenderEdges, AnEmptySceneIsBlackAndTransparentOrItsBackground) {
     if (has_background) scene.background = glm::vec3(0.25F, 0.5F, 2);
     const Renderer renderer = reference::make_renderer(std::move(scene));
     const LayeredImage picture =
-        reference::render(renderer, view, settings_of(70, 70, reference::all_layers()));
+        reference::render(renderer, view, settings_of_view(70, 70, reference::all_layers()));
     for (std::size_t i = 0; i < picture.channels[0].values.size(); ++i) {
       ASSERT_EQ(picture.find("R")->values[i], has_background ? 0.25F : 0.0F);
       ASSERT_EQ(picture.find("B")->values[i], has_background ? 2.0F : 0.0F);
@@ -206,7 +206,7 @@ TEST(RenderEdges, AnEmptySceneIsBlackAndTransparentOrItsBackground) {
       ASSERT_EQ(picture.find("Z")->values[i], std::numeric_limits<float>::infinity());
       ASSERT_EQ(picture.find("id.object")->values[i], -1.0F);
     }
-    expect_finite(reference::render(renderer, renderer.overview(50, 40), settings_of(50, 40)),
+    expect_finite(reference::render(renderer, renderer.overview(50, 40), settings_of_view(50, 40)),
                   "overview of nothing");
   }
 }
@@ -221,12 +221,12 @@ TEST(RenderEdges, ASceneWithoutLightGetsADefaultSunAndSaysSo) {
   ASSERT_EQ(dark.scene().lights.size(), 1U);
   EXPECT_EQ(dark.scene().lights[0].name, "default sun");
   const View view = reference::look({0, 3, 0.1}, {0, 0, 0}, 40, 1);
-  EXPECT_GT(reference::at(reference::render(dark, view, settings_of(9, 9)), "G", 4, 4), 0.1F);
+  EXPECT_GT(reference::at(reference::render(dark, view, settings_of_view(9, 9)), "G", 4, 4), 0.1F);
   // Neither with a light, nor where the ambient light is set, even to nothing.
   scene.ambient_is_set = true;
   const Renderer ambient = reference::make_renderer(scene);
   EXPECT_TRUE(ambient.scene().warnings.empty());
-  EXPECT_EQ(reference::at(reference::render(ambient, view, settings_of(9, 9)), "G", 4, 4), 0.0F);
+  EXPECT_EQ(reference::at(reference::render(ambient, view, settings_of_view(9, 9)), "G", 4, 4), 0.0F);
   scene.ambient_is_set = false;
   Light off;
   off.enabled = false;
@@ -242,7 +242,7 @@ TEST(RenderEdges, TrianglesWithoutAreaAreNotSeenAndDisturbNothing) {
   reference::add_light(scene, light, {1, 3, 1}, {0, 0, 0});
   const View view = reference::look({0, 2, 5}, {0, 0, 0}, 45, 1);
   const LayeredImage expected =
-      reference::render(reference::make_renderer(scene), view, settings_of(100, 100));
+      reference::render(reference::make_renderer(scene), view, settings_of_view(100, 100));
   reference::Mesher mesh;
   mesh.triangle({0, 1, 0}, {0, 1, 0}, {0, 1, 0});
   mesh.triangle({-1, 1, 0}, {0, 1, 0}, {1, 1, 0});
@@ -253,7 +253,7 @@ TEST(RenderEdges, TrianglesWithoutAreaAreNotSeenAndDisturbNothing) {
   for (const ShadowFilter filter : {ShadowFilter::refined, ShadowFilter::percentage_closer}) {
     scene.lights[0].shadow.filter = filter;
     const LayeredImage picture =
-        reference::render(reference::make_renderer(scene), view, settings_of(100, 100));
+        reference::render(reference::make_renderer(scene), view, settings_of_view(100, 100));
     if (filter == ShadowFilter::refined) {
       EXPECT_TRUE(same_bits(picture, expected));
     }
@@ -271,7 +271,7 @@ TEST(RenderEdges, InsideAnObjectItsBacksAreInvisibleUnlessTheyAreTwoSided) {
     reference::add_light(scene, light, {0.5, 0.5, 0.5}, {0, 0, 0});
     const LayeredImage picture =
         reference::render(reference::make_renderer(scene), reference::look({0.1, 0, 0}, {0, 0, -1}, 90, 1),
-                          settings_of(64, 64, {Layer::depth}));
+                          settings_of_view(64, 64, {Layer::depth}));
     for (std::size_t i = 0; i < picture.channels[0].values.size(); ++i) {
       ASSERT_EQ(picture.find("A")->values[i], is_double_sided ? 1.0F : 0.0F);
       ASSERT_EQ(picture.find("R")->values[i] > 0, is_double_sided);
@@ -291,7 +291,7 @@ TEST(RenderEdges, TrianglesThroughTheNearPlaneAreCutThere) {
   for (const double near : {0.01, 0.5, 3.0}) {
     const View view = reference::look({0, 0, 0}, {0.3, -0.4, -1}, 80, 1, {0, 1, 0}, near, 1000);
     const LayeredImage picture =
-        reference::render(renderer, view, settings_of(90, 90, {Layer::depth, Layer::position}));
+        reference::render(renderer, view, settings_of_view(90, 90, {Layer::depth, Layer::position}));
     for (int y = 0; y < 90; ++y) {
       for (int x = 0; x < 90; ++x) {
         const double side = std::tan(40 * 3.14159265358979 / 180);
@@ -337,7 +337,7 @@ TEST(RenderEdges, BeautyIsFiniteWhereverLightsAndCamerasStand) {
       const Renderer renderer = reference::make_renderer(std::move(scene));
       for (const ShadingModel model : {ShadingModel::papers, ShadingModel::phong, ShadingModel::pbr}) {
         for (const ShadowTechnique technique : {ShadowTechnique::map, ShadowTechnique::raytraced}) {
-          RenderSettings settings = settings_of(66, 50);
+          RenderSettings settings = settings_of_view(66, 50);
           settings.shading = model;
           settings.shadows = technique;
           const glm::dvec3 eye(place(random), place(random), place(random));
