@@ -257,8 +257,8 @@ void declare_bake(CLI::App& app, Run& run) {
                     "leave the baked lights in the file: with light maps, they shine twice");
   command->add_flag("--unwrap", b.unwrap_all,
                     "lay surfaces out anew even where their second texture coordinates serve");
-  command->add_flag(
-      "!--raw-seams", b.join_seams,
+  command->add_flag_callback(
+      "--raw-seams", [&b] { b.join_seams = false; },
       "leave luxels at seams as they were lit: else both sides of a seam are made to read alike");
   command->add_flag("--resume", b.resume, "go on where a run of the same bake was stopped");
   command->add_flag("--embed", o.embeds, "a .gltf of one piece");
