@@ -205,13 +205,13 @@ class Baker {
                                    {settings_.samples, 1 / settings_.density},
                                    pool_,
                                    progress};
-      light_page(page, context, files_);
+      light_page(page, context);
       if (progress.is_cancelled())
         return tl::unexpected(Error(Failure::cancelled, Diagnostic{{}, {}, "cancelled"}));
     }
     if (settings_.interreflection) {
       begin(BakeStage::reflected_light);
-      if (Result<void> added = add_bounces(*frame, rays, part_of_progress(direct_part, 1), files_); !added)
+      if (Result<void> added = add_bounces(*frame, rays, part_of_progress(direct_part, 1)); !added)
         return added;
     }
     const bool is_shown = settings_.into == BakeInto::emissive;
@@ -221,15 +221,19 @@ class Baker {
     if (settings_.join_seams) join_all(**own);
     if (is_shown) report_.exposure = encode_pages(pages_, settings_.exposure);
     continue_all();
-    report_.parts = files_.tally().asked;
-    report_.resumed_parts = files_.tally().found;
-    if (files_.tally().not_kept) {
-      Diagnostic note = files_.tally().not_kept->diagnostics.front();
-      note.message +=
-          ": parts that were finished were not kept, and a run that is stopped could not go on from there";
-      scene_.warnings.push_back(std::move(note));
-    }
+    report_parts();
     return {};
+  }
+
+  void report_parts() {
+    const PartFiles::Tally& tally = files_.tally();
+    report_.parts = tally.asked;
+    report_.resumed_parts = tally.found;
+    if (!tally.not_kept) return;
+    Diagnostic note = tally.not_kept->diagnostics.front();
+    note.message +=
+        ": parts that were finished were not kept, and a run that is stopped could not go on from there";
+    scene_.warnings.push_back(std::move(note));
   }
 
   Result<void> show(const frame::Frame& frame, const std::shared_ptr<const trace::RayScene>& rays) {
@@ -281,20 +285,20 @@ class Baker {
   }
 
   Result<void> add_bounces(const frame::Frame& frame, const std::shared_ptr<const trace::RayScene>& rays,
-                           const Progress& progress, const PartFiles& files) {
+                           const Progress& progress) {
     const double side = 1 / settings_.density;
     const LuxelSurfaces surfaces(frame, rays, side, set_);
     std::vector<LitPage> lit;
     for (std::size_t i = 0; i < pages_.size(); ++i)
       lit.push_back({triangles_[i].get(), pages_[i].front.get(), pages_[i].back.get()});
     const Result<BouncedLight> bounced = add_bounced_light(
-        frame, *rays, lit, surfaces, side, *settings_.interreflection, pool_, progress, files);
+        frame, *rays, lit, surfaces, side, *settings_.interreflection, pool_, progress, files_);
     if (!bounced) return tl::unexpected(bounced.error());
     report_.bounces = bounced->bounces;
     return {};
   }
 
-  void light_page(std::size_t page, const PageContext& context, const PartFiles& files) {
+  void light_page(std::size_t page, const PageContext& context) {
     const glm::ivec2 size = layout_.pages[page].size;
     BakedPage& pictures = pages_.emplace_back();
     pictures.front = std::make_shared<Image>(size.x, size.y, 3, PixelType::f32, Transfer::linear);
@@ -308,12 +312,12 @@ class Baker {
       StripValues values(strip_size(size, strip), layout_.pages[page].has_back, context.occlusion != nullptr);
       const PartFiles::Values bytes = {std::as_writable_bytes(std::span(values.numbers))};
       const std::string part = fmt::format("{}-{}", page, strip);
-      if (files.find(part, bytes)) {
+      if (files_.find(part, bytes)) {
         context.progress.advance(tiles_of(values.size));
       } else {
         light_strip(context, strip, values);
         if (context.progress.is_cancelled()) return;
-        files.keep(part, bytes);
+        files_.keep(part, bytes);
       }
       store(values, row, pictures);
       row += static_cast<std::size_t>(values.size.y);
@@ -345,9 +349,9 @@ class Baker {
     for (std::size_t page = 0; page < pages_.size(); ++page) {
       const std::vector<SeamPoint> seams =
           find_seams(own.frame, neighbours, materials_of(page), layout_.pages[page].size);
-      for (Image* picture : {pages_[page].front.get(), pages_[page].back.get()}) {
-        if (picture != nullptr) join_seams(seams, *picture);
-      }
+      std::vector<Image*> pictures = {pages_[page].front.get()};
+      if (pages_[page].back != nullptr) pictures.push_back(pages_[page].back.get());
+      join_seams(seams, pictures);
     }
   }
 

@@ -53,14 +53,10 @@ class DirectLight::Batch {
   Batch(const DirectLight& owner, std::span<const Receiver> receivers, bool of_back)
       : owner_(owner), count_(receivers.size()) {
     samples_.ray = owner.ray_;
-    samples_.group_count = (count_ + kGroupSize - 1) / kGroupSize;
+    set_count(samples_, count_);
     samples_.position_error = owner.position_error_;
     for (std::size_t i = 0; i < samples_.group_count * kGroupSize; ++i)
       set(i, receivers[std::min(i, count_ - 1)], of_back ? -1.0F : 1.0F);
-    for (std::size_t group = 0; group < samples_.group_count; ++group) {
-      const std::size_t there = std::min(kGroupSize, count_ - group * kGroupSize);
-      samples_.active[group] = static_cast<std::uint16_t>((1U << there) - 1);
-    }
   }
 
   void add(const BakedLight& light, std::span<glm::vec3> irradiance) {

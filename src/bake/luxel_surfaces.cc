@@ -86,13 +86,9 @@ class LuxelSurfaces::Batch {
 
   void find(const frame::Surface& surface, std::span<const Receiver> receivers,
             std::span<const std::uint32_t> which) {
-    samples_.group_count = (which.size() + kGroupSize - 1) / kGroupSize;
+    set_count(samples_, which.size());
     for (std::size_t i = 0; i < samples_.group_count * kGroupSize; ++i)
       place(i, receivers[which[std::min(i, which.size() - 1)]]);
-    for (std::size_t group = 0; group < samples_.group_count; ++group) {
-      const std::size_t there = std::min(kGroupSize, which.size() - group * kGroupSize);
-      samples_.active[group] = static_cast<std::uint16_t>((1U << there) - 1);
-    }
     has_occlusion_ = surface.occlusion_texture.chain != nullptr;
     find_surface_points_(side_.source, surface, samples_, points_);
     for (const frame::LayerBinding& layer : surface.layers) painter_.paint(surface, layer, samples_, points_);

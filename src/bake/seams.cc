@@ -228,10 +228,12 @@ std::vector<SeamPoint> find_seams(const frame::Frame& frame, const frame::Triang
   return finder.take();
 }
 
-void join_seams(std::span<const SeamPoint> seams, Image& picture) {
+void join_seams(std::span<const SeamPoint> seams, std::span<Image* const> pictures) {
   if (seams.empty()) return;
-  const auto luxels = static_cast<std::size_t>(picture.width()) * static_cast<std::size_t>(picture.height());
-  SeamJoiner(seams, luxels).join(picture.values<float>());
+  const Image& first = *pictures.front();
+  const SeamJoiner joiner(seams,
+                          static_cast<std::size_t>(first.width()) * static_cast<std::size_t>(first.height()));
+  for (Image* picture : pictures) joiner.join(picture->values<float>());
 }
 
 }  // namespace laterna::bake

@@ -26,7 +26,7 @@ std::vector<SeamPoint> find_seams(const frame::Frame& frame, const frame::Triang
                                   const std::vector<bool>& materials, glm::ivec2 size);
 
 /// Changes the luxels beside seams as little as it takes for both sides to read alike, by least squares: Iwanicki 2013,
-/// Lighting technology of The Last of Us. The picture is of floats, three channels; nothing becomes less than 0.
-void join_seams(std::span<const SeamPoint> seams, Image& picture);
+/// Lighting technology of The Last of Us. The pictures of the page are of floats, three channels; nothing becomes less than 0.
+void join_seams(std::span<const SeamPoint> seams, std::span<Image* const> pictures);
 
 }  // namespace laterna::bake

@@ -92,14 +92,10 @@ class Batch {
     probes_ = probes;
     const std::size_t count = probes.size();
     samples_.ray = ray_about(origin_ws);
-    samples_.group_count = (count + kGroupSize - 1) / kGroupSize;
+    set_count(samples_, count);
     samples_.position_error = 0;
     for (std::size_t i = 0; i < samples_.group_count * kGroupSize; ++i)
       set_sample(samples_, points_, i, probes[std::min(i, count - 1)], origin_ws);
-    for (std::size_t group = 0; group < samples_.group_count; ++group) {
-      const std::size_t there = std::min(kGroupSize, count - group * kGroupSize);
-      samples_.active[group] = static_cast<std::uint16_t>((1U << there) - 1);
-    }
     lifted_ = samples_;
     lift(lifted_, probes);
   }

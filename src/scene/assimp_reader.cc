@@ -15,10 +15,10 @@
 
 #include "base/elementary.h"
 #include "base/file_io.h"
+#include "base/lower_case.h"
 #include "scene/assimp_files.h"
 #include "scene/assimp_materials.h"
 #include "scene/fault_list.h"
-#include "scene/lower_case.h"
 #include "scene/md2_frames.h"
 #include "scene/ply_header.h"
 #include "scene/spelling.h"

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "base/file_io.h"
+#include "base/lower_case.h"
 #include "laterna/lamps.h"
 #include "scene/eulumdat_reader.h"
 #include "scene/ies_reader.h"
@@ -34,10 +35,7 @@ std::optional<std::size_t> find_rubbish(std::string_view text) {
 }
 
 bool has_eulumdat_ending(const std::string& name) {
-  std::string ending = std::filesystem::path(name).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return ending == ".ldt";
+  return lower_case(std::filesystem::path(name).extension().string()) == ".ldt";
 }
 
 // The third line of EULUMDAT is its symmetry, and nothing else.

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <exception>
 #include <string>
 #include <system_error>
 
 #include "base/file_io.h"
+#include "base/lower_case.h"
 #include "laterna/scene.h"
 #include "scene/assimp_reader.h"
 #include "scene/gltf_reader.h"
@@ -16,10 +16,7 @@ namespace laterna {
 namespace {
 
 bool has_ending(const std::filesystem::path& file, std::string_view ending) {
-  const std::string found = file.extension().string();
-  return found.size() == ending.size() &&
-         std::equal(found.begin(), found.end(), ending.begin(),
-                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+  return lower_case(file.extension().string()) == ending;
 }
 
 bool is_rig(const std::filesystem::path& file) { return has_ending(file, ".json"); }

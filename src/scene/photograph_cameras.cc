@@ -6,8 +6,8 @@
 #include <system_error>
 
 #include "base/file_io.h"
+#include "base/lower_case.h"
 #include "laterna/photograph_files.h"
-#include "scene/lower_case.h"
 #include "scene/opencv_yaml.h"
 
 namespace laterna {

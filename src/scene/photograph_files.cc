@@ -10,10 +10,10 @@
 #include <set>
 #include <system_error>
 
+#include "base/lower_case.h"
 #include "base/task_pool.h"
 #include "base/without_exceptions.h"
 #include "scene/lens_undistortion.h"
-#include "scene/lower_case.h"
 #include "scene/photograph_cameras.h"
 #include "scene/spelling.h"
 

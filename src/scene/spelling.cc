@@ -6,14 +6,14 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/lower_case.h"
+
 namespace laterna {
 namespace {
 
 constexpr std::size_t kMaxQuotedBytes = 80;
 constexpr std::size_t kMaxComparedBytes =
     40;  // no key is longer; keeps the comparison cheap for hostile input
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 // Levenshtein's distance, blind to case; a swap of neighbours counts as one slip (Damerau).
 std::size_t slips_between(std::string_view a, std::string_view b) {
@@ -22,9 +22,10 @@ std::size_t slips_between(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      const bool same = lower_case(a[i - 1]) == lower_case(b[j - 1]);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1])) {
+      if (i > 1 && j > 1 && lower_case(a[i - 1]) == lower_case(b[j - 2]) &&
+          lower_case(a[i - 2]) == lower_case(b[j - 1])) {
         row[j] = std::min(row[j], before[j - 2] + 1);
       }
     }

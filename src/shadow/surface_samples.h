@@ -2,6 +2,7 @@
 // blended layers over them, or from anywhere else; shadow techniques and shading know no other source.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec4.hpp>
@@ -40,6 +41,15 @@ struct SurfaceSamples {
   /// Bounds on how far x_ws, y_ws, z_ws may be off by rounding, in metres.
   float position_error = 0;
 };
+
+/// Makes room for so many samples, up to kMaxSamples, all of which count.
+inline void set_count(SurfaceSamples& samples, std::size_t count) {
+  samples.group_count = (count + kGroupSize - 1) / kGroupSize;
+  for (std::size_t group = 0; group < samples.group_count; ++group) {
+    const std::size_t there = std::min(kGroupSize, count - group * kGroupSize);
+    samples.active[group] = static_cast<std::uint16_t>((1U << there) - 1);
+  }
+}
 
 /// Calls `use(i)` for every sample named by `wanted`, a bit each, by group.
 template <class Use>

@@ -132,6 +132,13 @@ int add_object(Scene& scene, const std::string& name, Primitive primitive, glm::
   return static_cast<int>(scene.nodes.size()) - 1;
 }
 
+Light bulb(const std::string& name, double candela) {
+  Light light;
+  light.name = name;
+  light.intensity = candela;
+  return light;
+}
+
 int add_light(Scene& scene, Light light, glm::dvec3 position, glm::dvec3 target, glm::dvec3 up) {
   if (light.name.empty()) light.name = "light " + std::to_string(scene.lights.size() + 1);
   Node node;

@@ -32,6 +32,8 @@ Primitive wall(float half_width, float half_height, float z);
 
 /// Adds one material and one node with the primitive; returns the node.
 int add_object(Scene& scene, const std::string& name, Primitive primitive, glm::vec3 color = glm::vec3(1));
+/// Shines all round, of so many candela.
+Light bulb(const std::string& name, double candela);
 /// Adds a light or camera looking from `position` to `target`; returns the node.
 int add_light(Scene& scene, Light light, glm::dvec3 position, glm::dvec3 target, glm::dvec3 up = {0, 1, 0});
 /// A picture of 8-bit RGB from a function of (x, y).

@@ -18,17 +18,10 @@ namespace {
 
 using namespace reference;
 
-Light candelas(const std::string& name, double candela) {
-  Light light;
-  light.name = name;
-  light.intensity = candela;
-  return light;
-}
-
 Scene floor_below_a_lamp() {
   Scene scene;
   add_object(scene, "floor", floor(0.5F), {0.5F, 0.4F, 0.2F});
-  add_light(scene, candelas("lamp", 10), {0, 2, 0}, {1, 0, 0});
+  add_light(scene, bulb("lamp", 10), {0, 2, 0}, {1, 0, 0});
   return scene;
 }
 
@@ -227,7 +220,7 @@ TEST(BakedEmission, ExposureIsThatOfAllThings) {
 // Lights that would shine on what reflects none.
 TEST(BakedEmission, LeavesNoLightsOn) {
   Scene scene = floor_below_a_lamp();
-  add_light(scene, candelas("other", 3), {1, 2, 0}, {0, 0, 0});
+  add_light(scene, bulb("other", 3), {1, 2, 0}, {0, 0, 0});
   BakeSettings settings = into_emission();
   settings.keep_lights = true;
   Result<BakedScene> refused = bake_light(scene, settings);

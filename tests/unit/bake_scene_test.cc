@@ -20,17 +20,10 @@ namespace {
 
 using namespace reference;
 
-Light lamp_of(double candela) {
-  Light light;
-  light.name = "lamp";
-  light.intensity = candela;
-  return light;
-}
-
 Scene lit_floor(float height = 0) {
   Scene scene;
   add_object(scene, "floor", floor(0.5F, height), {0.5F, 0.4F, 0.2F});
-  add_light(scene, lamp_of(10), {0, 2, 0}, {1, 0, 0});
+  add_light(scene, bulb("lamp", 10), {0, 2, 0}, {1, 0, 0});
   return scene;
 }
 

@@ -58,10 +58,7 @@ std::vector<double> differences_at_seams(const Scene& baked) {
 Scene lit_from_aside(Primitive shape) {
   Scene scene;
   add_object(scene, "shape", std::move(shape));
-  Light lamp;
-  lamp.name = "lamp";
-  lamp.intensity = 10;
-  add_light(scene, lamp, {2, 1, 0.5}, {0, 0, 0});
+  add_light(scene, bulb("lamp", 10), {2, 1, 0.5}, {0, 0, 0});
   return scene;
 }
 

@@ -19,13 +19,6 @@ namespace {
 
 using namespace reference;
 
-Light bulb(const std::string& name, double candela) {
-  Light light;
-  light.name = name;
-  light.intensity = candela;
-  return light;
-}
-
 std::vector<float> numbers_of(const BakedScene& baked) {
   std::vector<float> numbers;
   for (const Picture& picture : baked.scene.pictures) {

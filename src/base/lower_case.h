@@ -1,0 +1,15 @@
+// Names compared without regard to case: ASCII letters alone, whatever the locale.
+#pragma once
+
+#include <string>
+
+namespace laterna {
+
+inline char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+inline std::string lower_case(std::string text) {
+  for (char& c : text) c = lower_case(c);
+  return text;
+}
+
+}  // namespace laterna
