@@ -182,6 +182,7 @@ class Baker {
     Result<std::unique_ptr<OwnFrame>> own = make_frame(scene_, settings_.options.time, set_, pool_);
     if (!own) return tl::unexpected(std::move(own.error()));
     const frame::Frame* frame = &(*own)->frame;
+    note_small_scene(scene_, layout_.used, frame->bounds, settings_.density);
     const Result<image::ContentKey> content = key();
     if (!content) return tl::unexpected(content.error());
     files_ = PartFiles(settings_.work_file, *content, settings_.resume);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <string>
 #include <utility>
 
@@ -63,6 +66,12 @@ std::vector<bool> moving_lights(const Scene& scene) {
   return moves;
 }
 
+// "1400" of 1391.
+std::string text_of_two_digits(double number) {
+  const double unit = std::pow(10.0, std::floor(std::log10(number)) - 1);
+  return fmt::format("{:g}", std::round(number / unit) * unit);
+}
+
 }  // namespace
 
 void note_what_is_lost(Scene& scene, const std::vector<bool>& is_baked, const BakeSettings& settings) {
@@ -109,6 +118,19 @@ void note_what_is_lost(Scene& scene, const std::vector<bool>& is_baked, const Ba
       "are all metal, which glTF's are unless they say otherwise: they reflect nothing diffusely, so that in "
       "the shading models phong and pbr nothing is seen of their light maps");
   std::ranges::move(notes, std::back_inserter(scene.warnings));
+}
+
+void note_small_scene(Scene& scene, double used, const frame::Bounds& bounds, double density) {
+  constexpr double kLeastUsed = 0.05, kFine = 1024;  // luxels across
+  const double across = glm::length(glm::dvec3(bounds.high) - glm::dvec3(bounds.low));
+  const double finer = kFine / across;
+  if (used >= kLeastUsed || !(finer > 2 * density)) return;
+  scene.warnings.push_back(
+      {{},
+       "density",
+       fmt::format("the scene is {:.3g} m across, and luxels {:.3g} m: about {} in a metre would show how "
+                   "light falls in it",
+                   across, 1 / density, text_of_two_digits(finer))});
 }
 
 }  // namespace laterna::bake

@@ -25,7 +25,7 @@ constexpr float kRaysForEven = 16;
 constexpr float kMostRays = 64;
 // Boxes that are summed one by one, those that bring most first: where much is bright there would be thousands. What remains
 // is sampled.
-constexpr std::size_t kMostBoxes = 128;
+constexpr float kMostBoxes = 128;
 constexpr float kSampleRays = 64;
 
 float strongest(const glm::vec3& light) { return std::max(light.x, std::max(light.y, light.z)); }
@@ -48,9 +48,15 @@ bool is_below(const glm::vec3& low, const glm::vec3& high, const glm::vec3& poin
 
 struct BrightLuxels::Sum {
   std::uint32_t receiver;
+  float effort;
   const LuxelRays& rays;
   LuxelRays::Scratch& scratch;
-  glm::vec3 irradiance{0};
+  Brought brought;
+
+  void add(const glm::vec3& irradiance, float distance) {
+    brought.irradiance += irradiance;
+    brought.per_distance += sum_of(irradiance) / distance;
+  }
 };
 
 BrightLuxels::BrightLuxels(const LuxelTree& tree, std::span<const glm::vec3> exitance)
@@ -65,6 +71,10 @@ BrightLuxels::BrightLuxels(const LuxelTree& tree, std::span<const glm::vec3> exi
   if (!(flux > 0)) return;
   most_even_ = static_cast<float>(kEven * flux / area);
   for (auto node = static_cast<std::uint32_t>(shine_.size()); node-- > 0;) shine_[node] = shine_below(node);
+  flux_before_.reserve(exitance.size() + 1);
+  flux_before_.push_back(0);
+  for (std::uint32_t place = 0; place < exitance.size(); ++place)
+    flux_before_.push_back(flux_before_.back() + static_cast<double>(shine_of(place).strength));
 }
 
 bool BrightLuxels::is_bright(std::uint32_t place) const { return strongest(exitance_[place]) > most_even_; }
@@ -126,26 +136,20 @@ bool BrightLuxels::can_be_one(const Sum& sum, std::uint32_t node) const {
   return shine.radius * shine.radius <= kLargestSine * kLargestSine * glm::dot(way, way);
 }
 
-// One of a node's luxels, by what they give: for equally spread numbers each as often as it gives light.
+// One of a node's luxels, by what they give: for equally spread numbers each as often as it gives light. A search without
+// branches: as many picks are made as rays are sent, and to go down the tree took as long as a ray.
 std::uint32_t BrightLuxels::pick(std::uint32_t node, double number) const {
-  while (!tree_.nodes()[node].is_leaf()) {
-    const double one = static_cast<double>(shine_[node + 1].strength);
-    const double other = static_cast<double>(shine_[tree_.nodes()[node].second].strength);
-    const double part = one / (one + other);
-    const bool is_one = number < part;
-    number = is_one ? number / part : (number - part) / (1 - part);
-    node = is_one ? node + 1 : tree_.nodes()[node].second;
+  const LuxelNode& box = tree_.nodes()[node];
+  const double wanted = flux_before_[box.first] + number * (flux_before_[box.last] - flux_before_[box.first]);
+  std::uint32_t place = box.first;
+  for (std::uint32_t count = box.last - box.first; count > 1;) {
+    const std::uint32_t half = count / 2;
+    place = flux_before_[place + half] <= wanted ? place + half : place;
+    count -= half;
   }
-  const LuxelNode& leaf = tree_.nodes()[node];
-  double left = number * static_cast<double>(shine_[node].strength);
-  std::uint32_t picked = leaf.first;
-  for (std::uint32_t place = leaf.first; place < leaf.last; ++place) {
-    if (!is_bright(place)) continue;
-    picked = place;
-    left -= static_cast<double>(sum_of(exitance_[place]) * tree_.luxels()[place].area);
-    if (left < 0) break;
-  }
-  return picked;
+  // By rounding it may be one that follows the last that is bright.
+  while (place > box.first && flux_before_[place + 1] == flux_before_[place]) --place;
+  return place;
 }
 
 // `seen`: the place of one of the luxels, for a number in [0, 1).
@@ -154,19 +158,20 @@ void BrightLuxels::add(Sum& sum, const Shine& shine, Seen seen) const {
   const Luxel& receiver = tree_.luxels()[sum.receiver];
   const glm::vec3 way = shine.centre - receiver.position_ws;
   const float squared = glm::dot(way, way);
-  const glm::vec3 direction = way / std::sqrt(squared);
+  const float distance = std::sqrt(squared);
+  const glm::vec3 direction = way / distance;
   const float factor = form_factor(shine.area, glm::dot(receiver.normal_ws, direction),
                                    -glm::dot(shine.axis, direction), squared);
   if (factor == 0) return;
   const glm::vec3 unshadowed = shine.flux * (factor / shine.area);
-  const float wanted = std::ceil(strongest(unshadowed) / most_even_ * kRaysForEven);
-  const int rays = static_cast<int>(std::clamp(wanted, 1.0F, kMostRays));
+  const float wanted = std::ceil(strongest(unshadowed) / most_even_ * kRaysForEven * sum.effort);
+  const int rays = static_cast<int>(std::clamp(wanted, 1.0F, std::max(1.0F, kMostRays * sum.effort)));
   glm::vec3 arrived(0);
   for (int ray = 0; ray < rays; ++ray) {
     const std::uint32_t place = seen((ray + shift_of(sum.receiver).u) / rays);
     arrived += sum.rays.transmittance(sum.receiver, place, sum.scratch);
   }
-  sum.irradiance += unshadowed * (arrived / static_cast<float>(rays));
+  sum.add(unshadowed * (arrived / static_cast<float>(rays)), distance);
 }
 
 // Of each box some luxels, each with the form factor of its own; the more, the more it may bring.
@@ -174,27 +179,27 @@ void BrightLuxels::add_samples(Sum& sum, std::span<const std::pair<float, std::u
   float all = 0;
   for (const auto& [bound, node] : boxes) all += bound;
   for (const auto& [bound, node] : boxes)
-    add_sample(sum, node, static_cast<int>(std::ceil(kSampleRays * bound / all)));
+    add_sample(sum, node, static_cast<int>(std::ceil(kSampleRays * sum.effort * bound / all)));
 }
 
 void BrightLuxels::add_sample(Sum& sum, std::uint32_t node, int rays) const {
   const Luxel& receiver = tree_.luxels()[sum.receiver];
   const Shine& shine = shine_[node];
-  glm::vec3 arrived(0);
+  const float part = shine.strength / static_cast<float>(rays);
   for (int ray = 0; ray < rays; ++ray) {
     const std::uint32_t place = pick(node, (ray + shift_of(sum.receiver).u) / rays);
     if (is_near(sum.receiver, place)) continue;
     const Luxel& luxel = tree_.luxels()[place];
     const glm::vec3 way = luxel.position_ws - receiver.position_ws;
     const float squared = glm::dot(way, way);
-    const glm::vec3 direction = way / std::sqrt(squared);
+    const float distance = std::sqrt(squared);
+    const glm::vec3 direction = way / distance;
     const float factor = form_factor(luxel.area, glm::dot(receiver.normal_ws, direction),
                                      -glm::dot(luxel.normal_ws, direction), squared);
     if (factor == 0) continue;
-    arrived += exitance_[place] * (factor / (sum_of(exitance_[place]) * luxel.area)) *
-               sum.rays.transmittance(sum.receiver, place, sum.scratch);
+    const glm::vec3 unshadowed = exitance_[place] * (part * factor / (sum_of(exitance_[place]) * luxel.area));
+    sum.add(unshadowed * sum.rays.transmittance(sum.receiver, place, sum.scratch), distance);
   }
-  sum.irradiance += arrived * (shine.strength / static_cast<float>(rays));
 }
 
 float BrightLuxels::bound_at(std::uint32_t receiver, std::uint32_t node) const {
@@ -205,10 +210,10 @@ float BrightLuxels::bound_at(std::uint32_t receiver, std::uint32_t node) const {
   return shine.strength / (static_cast<float>(kPi) * glm::dot(outside, outside) + shine.largest);
 }
 
-glm::vec3 BrightLuxels::irradiance_at(std::uint32_t receiver, const LuxelRays& rays,
-                                      LuxelRays::Scratch& scratch) const {
-  Sum sum = {receiver, rays, scratch};
-  if (most_even_ == 0) return sum.irradiance;
+BrightLuxels::Brought BrightLuxels::brought_to(std::uint32_t receiver, float effort, const LuxelRays& rays,
+                                               LuxelRays::Scratch& scratch) const {
+  Sum sum = {receiver, effort, rays, scratch, {}};
+  if (most_even_ == 0) return sum.brought;
   const Luxel& luxel = tree_.luxels()[receiver];
   auto& open = scratch.boxes;
   open.clear();
@@ -220,6 +225,7 @@ glm::vec3 BrightLuxels::irradiance_at(std::uint32_t receiver, const LuxelRays& r
     std::ranges::push_heap(open);
   };
   push(0);
+  const auto most_boxes = static_cast<std::size_t>(std::ceil(kMostBoxes * effort));
   for (std::size_t taken = 0; !open.empty();) {
     std::ranges::pop_heap(open);
     const std::uint32_t index = open.back().second;
@@ -234,7 +240,7 @@ glm::vec3 BrightLuxels::irradiance_at(std::uint32_t receiver, const LuxelRays& r
         add(sum, shine_of(place), [&](double) { return place; });
         ++taken;
       }
-    } else if (taken + open.size() >= kMostBoxes) {
+    } else if (taken + open.size() >= most_boxes) {
       open.emplace_back(bound_at(receiver, index), index);
       break;
     } else {
@@ -243,7 +249,7 @@ glm::vec3 BrightLuxels::irradiance_at(std::uint32_t receiver, const LuxelRays& r
     }
   }
   add_samples(sum, open);
-  return sum.irradiance;
+  return sum.brought;
 }
 
 }  // namespace laterna::bake

@@ -26,9 +26,16 @@ class BrightLuxels {
   [[nodiscard]] bool is_left_to_rays(std::uint32_t receiver, std::uint32_t place) const {
     return !is_bright(place) || is_near(receiver, place);
   }
-  /// The irradiance at `receiver` from all bright luxels that are not left to rays.
-  [[nodiscard]] glm::vec3 irradiance_at(std::uint32_t receiver, const LuxelRays& rays,
-                                        LuxelRays::Scratch& scratch) const;
+  struct Brought {
+    glm::vec3 irradiance{0};
+    /// Of all channels together, each part of it over the distance from which it comes, in metres.
+    float per_distance = 0;
+  };
+
+  /// What comes to `receiver` from all bright luxels that are not left to rays. `effort`: above 0 to 1, the part of the boxes and
+  /// rays that are worth it for a sum that nothing is averaged with; the mean over receivers is the same for all.
+  [[nodiscard]] Brought brought_to(std::uint32_t receiver, float effort, const LuxelRays& rays,
+                                   LuxelRays::Scratch& scratch) const;
 
  private:
   // Of a node's bright luxels.
@@ -62,7 +69,8 @@ class BrightLuxels {
   const LuxelTree& tree_;
   std::span<const glm::vec3> exitance_;
   float most_even_ = 0;
-  std::vector<Shine> shine_;  // by node
+  std::vector<Shine> shine_;         // by node
+  std::vector<double> flux_before_;  // by place, of all channels: that of bright luxels at places before it
 };
 
 }  // namespace laterna::bake

@@ -128,6 +128,9 @@ DirectLight::DirectLight(const frame::Frame& frame, const std::shared_ptr<const 
   for (int k = 0; k < 3; ++k)
     farthest = std::max({farthest, std::abs(frame.bounds.low[k]), std::abs(frame.bounds.high[k])});
   position_error_ = farthest * kRounding;
+  if (!std::ranges::any_of(frame.lights,
+                           [](const auto& placed) { return light::has_samples(*placed.light); }))
+    points = 1;
   plans_.reserve(static_cast<std::size_t>(points));  // lights point into their plans
   for (int i = 0; i < points; ++i)
     plans_.push_back(light::make_light_plan(frame, {ShadowTechnique::raytraced, {i, points}, nullptr}));

@@ -56,8 +56,8 @@ Sight LuxelRays::look(std::uint32_t place, int ray, int count, Scratch& scratch)
                                       std::numeric_limits<float>::infinity(), luxel.triangle);
   if (!hit) return {};
   const std::uint32_t met = grids_.place_at(*hit, direction);
-  if (met == kNoLuxel) return {};
-  return {met, tint_along(luxel, direction, near, hit->distance, scratch)};
+  if (met == kNoLuxel) return {hit->distance};
+  return {hit->distance, met, tint_along(luxel, direction, near, hit->distance, scratch)};
 }
 
 glm::vec3 LuxelRays::transmittance(std::uint32_t from, std::uint32_t to, Scratch& scratch) const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -13,10 +14,11 @@
 
 namespace laterna::bake {
 
-/// The luxel that a ray has met, and the part of each channel that panes in between let through.
+/// What a ray has met.
 struct Sight {
-  std::uint32_t place = kNoLuxel;
-  glm::vec3 tint{1};
+  float distance = std::numeric_limits<float>::infinity();
+  std::uint32_t place = kNoLuxel;  ///< the luxel that stands for it
+  glm::vec3 tint{1};               ///< the part of each channel that panes in between let through
 };
 
 /// Const calls may come from several threads, each with a Scratch of its own.

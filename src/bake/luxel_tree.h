@@ -45,7 +45,6 @@ class LuxelTree {
 
   /// Mean area of an object's luxels; 0 where it has none.
   [[nodiscard]] float mean_area(std::uint32_t object) const { return mean_areas_[object]; }
-
   /// The place of the luxel that stands for a point: the nearest of the same object that faces the same way, no farther off
   /// than a few of its own widths. Distances off the surface count four times, so that of two parallel sheets the right one
   /// is found.

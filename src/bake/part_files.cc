@@ -18,7 +18,7 @@ namespace bake {
 namespace {
 
 // Changes whenever the same scene would be baked otherwise.
-constexpr std::uint64_t kVersion = 3;
+constexpr std::uint64_t kVersion = 4;
 constexpr std::array<char, 8> kMagic = {'L', 'A', 'T', 'B', 'A', 'K', 'E', '1'};
 constexpr std::string_view kInfix = ".bake-";
 // What write_file() names a file that is not whole yet.
@@ -61,8 +61,12 @@ bool begins_as_part(const std::filesystem::path& path) {
 }  // namespace
 
 PartFiles PartFiles::with(std::initializer_list<double> numbers) const {
+  return with(std::as_bytes(std::span(numbers.begin(), numbers.size())));
+}
+
+PartFiles PartFiles::with(std::span<const std::byte> bytes) const {
   PartFiles other = *this;
-  for (const double number : numbers) other.key_.add(std::as_bytes(std::span(&number, 1)));
+  if (!file_.empty()) other.key_.add(bytes);
   return other;
 }
 

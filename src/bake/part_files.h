@@ -37,6 +37,7 @@ class PartFiles {
   static PartFiles none() { return {{}, {}, false}; }
   /// The same of what depends on these numbers too.
   [[nodiscard]] PartFiles with(std::initializer_list<double> numbers) const;
+  [[nodiscard]] PartFiles with(std::span<const std::byte> bytes) const;
 
   /// As many bytes as the spans hold, one after the other. False: it is not there, and they are as before. `part`: lower-case
   /// letters, digits and '-'.

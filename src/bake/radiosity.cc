@@ -12,16 +12,17 @@
 #include <string_view>
 
 #include "bake/bright_luxels.h"
+#include "bake/final_gather.h"
+#include "bake/luxel_patches.h"
 #include "bake/luxel_rays.h"
 #include "bake/luxel_tree.h"
+#include "bake/part_work.h"
 #include "base/refuse.h"
 #include "render/progress_report.h"
 
 namespace laterna::bake {
 namespace {
 
-// Bounces are worked out between so many patches at most; with 256 rays each they remember 32 MB.
-constexpr std::size_t kMaxPatches = 32768;
 // A patch looks around from so many of its luxels.
 constexpr int kViewpoints = 4;
 constexpr int kMinRays = 16;
@@ -33,9 +34,8 @@ constexpr float kMaxLight = 1e15F;
 constexpr float kMaxArea = 1e12F;
 // Of a normal's squared length, of single precision and somebody else's rounding.
 constexpr float kUnitError = 1e-3F;
-constexpr std::size_t kBatch = 64;
 // Kept as one file.
-constexpr std::size_t kPatchesPerPart = 64 * kBatch, kLuxelsPerPart = 512 * kBatch;
+constexpr std::size_t kBatchesPerPart = 64;
 
 glm::vec3 at_or_dark(std::span<const glm::vec3> light, std::size_t i) {
   return light.empty() ? glm::vec3(0) : light[i];
@@ -45,26 +45,6 @@ double sum_of(const glm::vec3& light) {
   return static_cast<double>(light.x) + static_cast<double>(light.y) + static_cast<double>(light.z);
 }
 
-// Patches are runs of places, and the tree is balanced, so that equal runs are boxes of neighbouring luxels.
-class Patches {
- public:
-  explicit Patches(std::size_t luxel_count)
-      : luxel_count_(luxel_count), size_((luxel_count + kMaxPatches - 1) / kMaxPatches) {}
-
-  [[nodiscard]] std::size_t count() const { return size_ == 0 ? 0 : (luxel_count_ + size_ - 1) / size_; }
-  [[nodiscard]] std::uint32_t of(std::uint32_t place) const {
-    return place / static_cast<std::uint32_t>(size_);
-  }
-  [[nodiscard]] std::size_t first(std::size_t patch) const { return patch * size_; }
-  [[nodiscard]] std::size_t size(std::size_t patch) const {
-    return std::min(size_, luxel_count_ - first(patch));
-  }
-  [[nodiscard]] bool are_luxels() const { return size_ == 1; }
-
- private:
-  std::size_t luxel_count_, size_;
-};
-
 class Solver {
  public:
   Solver(const frame::Frame& frame, const trace::RayScene& rays, std::span<const Luxel> luxels,
@@ -72,17 +52,18 @@ class Solver {
          const Progress& progress, const PartFiles& parts)
       : settings_(settings),
         pool_(pool),
-        seen_parts_(parts.with({double(settings.rays)})),
-        lit_parts_(parts.with({double(settings.rays), double(settings.bounces), double(settings.tolerance)})),
+        seen_parts_(of_these(parts, luxels, sources).with({double(settings.rays)})),
+        lit_parts_(seen_parts_.with({double(settings.bounces), double(settings.tolerance)})),
         tree_(frame, luxels),
         rays_(frame, rays, tree_, pool),
-        patches_(luxels.size()),
+        patches_(luxels.size(), settings.rays),
         exitance_(initial_exitance(tree_, sources)),
         bright_(tree_, exitance_),
         // The last bounce goes to luxels.
         between_patches_(settings.bounces - (patches_.are_luxels() ? 0 : 1)),
-        progress_(progress, (between_patches_ > 0 ? batches_of(patches_.count()) : 0) +
-                                (patches_.are_luxels() ? 0 : batches_of(luxels.size()))) {}
+        progress_(progress, (between_patches_ > 0 ? PartWork::batches_of(patches_.count()) : 0) +
+                                (patches_.are_luxels() ? 0 : FinalGather::steps(luxels.size()))),
+        work_(pool, progress_) {}
 
   Result<Interreflection> solve();
 
@@ -99,28 +80,20 @@ class Solver {
     std::uint32_t word_ = kNoLuxel << 1U;
   };
 
+  static PartFiles of_these(const PartFiles& parts, std::span<const Luxel> luxels,
+                            const LightSources& sources);
   static std::vector<glm::vec3> initial_exitance(const LuxelTree& tree, const LightSources& sources);
-  static std::size_t batches_of(std::size_t count) { return (count + kBatch - 1) / kBatch; }
-
   [[nodiscard]] int viewpoints_of(std::size_t patch) const {
     return static_cast<int>(std::min<std::size_t>(kViewpoints, patches_.size(patch)));
   }
   void look_around(std::size_t patch, LuxelRays::Scratch& scratch);
   [[nodiscard]] glm::vec3 gather(std::size_t patch) const;
-  [[nodiscard]] glm::vec3 gather_at(std::uint32_t place, LuxelRays::Scratch& scratch) const;
   [[nodiscard]] glm::vec3 reflected(std::uint32_t place) const {
     return tree_.luxels()[place].reflectance * patch_irradiance_[patches_.of(place)];
   }
   void look_around_all();
   void bounce_between_patches();
   [[nodiscard]] bool adds_little(double change, double last_change) const;
-  // Calls body(i, scratch) for i in [first, last).
-  template <class Body>
-  void in_batches(std::size_t first, std::size_t last, Body body);
-  // The same of [0, count), part by part: values(first, last) are the bytes of what it works out, kept in files.
-  template <class Body, class Values>
-  void in_parts(const PartFiles& files, std::string_view name, std::size_t count, std::size_t part_size,
-                Body body, Values values);
   [[nodiscard]] std::vector<glm::vec3> irradiance_of_luxels();
 
   RadiositySettings settings_;
@@ -133,6 +106,7 @@ class Solver {
   BrightLuxels bright_;
   int between_patches_;
   render::ProgressReport progress_;
+  PartWork work_;
   std::vector<End> ends_;           // `rays` of each patch
   std::vector<glm::vec3> tints_;    // of the same rays; empty where there are no panes
   std::vector<glm::vec3> brought_;  // by patch: by bright luxels, which do not change from bounce to bounce
@@ -140,6 +114,14 @@ class Solver {
   std::vector<double> patch_areas_;
   int bounces_ = 0;
 };
+
+// What surfaces reflect, layers on them included, is in the luxels.
+PartFiles Solver::of_these(const PartFiles& parts, std::span<const Luxel> luxels,
+                           const LightSources& sources) {
+  return parts.with(std::as_bytes(luxels))
+      .with(std::as_bytes(sources.direct_irradiance))
+      .with(std::as_bytes(sources.exitance));
+}
 
 std::vector<glm::vec3> Solver::initial_exitance(const LuxelTree& tree, const LightSources& sources) {
   std::vector<glm::vec3> exitance(tree.luxels().size());
@@ -151,38 +133,10 @@ std::vector<glm::vec3> Solver::initial_exitance(const LuxelTree& tree, const Lig
   return exitance;
 }
 
-template <class Body>
-void Solver::in_batches(std::size_t first, std::size_t last, Body body) {
-  std::vector<LuxelRays::Scratch> scratch(static_cast<std::size_t>(pool_.threads()));
-  pool_.for_each(batches_of(last - first), [&](std::size_t batch, int worker) {
-    if (progress_.is_cancelled()) return;
-    const std::size_t end = std::min(last, first + (batch + 1) * kBatch);
-    for (std::size_t i = first + batch * kBatch; i < end; ++i)
-      body(i, scratch[static_cast<std::size_t>(worker)]);
-    progress_.advance();
-  });
-}
-
-template <class Body, class Values>
-void Solver::in_parts(const PartFiles& files, std::string_view name, std::size_t count, std::size_t part_size,
-                      Body body, Values values) {
-  for (std::size_t first = 0; first < count && !progress_.is_cancelled(); first += part_size) {
-    const std::size_t last = std::min(count, first + part_size);
-    const std::string part = fmt::format("{}-{}", name, first / part_size);
-    if (files.find(part, values(first, last))) {
-      progress_.advance(batches_of(last - first));
-      continue;
-    }
-    in_batches(first, last, body);
-    if (progress_.is_cancelled()) return;
-    files.keep(part, values(first, last));
-  }
-}
-
 // Finds what the rays of a patch end on, once for all bounces: these are its row of form factors.
 void Solver::look_around(std::size_t patch, LuxelRays::Scratch& scratch) {
   const int viewpoints = viewpoints_of(patch);
-  const auto row = patch * static_cast<std::size_t>(settings_.rays);
+  const auto row = patch * static_cast<std::size_t>(patches_.rays());
   const auto viewpoint = [&](int number) {
     const std::size_t step = (2 * static_cast<std::size_t>(number) + 1) * patches_.size(patch);
     return static_cast<std::uint32_t>(patches_.first(patch) +
@@ -190,12 +144,13 @@ void Solver::look_around(std::size_t patch, LuxelRays::Scratch& scratch) {
   };
   glm::vec3 brought(0);
   for (int number = 0; number < viewpoints; ++number)
-    brought += bright_.irradiance_at(viewpoint(number), rays_, scratch);
+    brought +=
+        bright_.brought_to(viewpoint(number), 1 / static_cast<float>(viewpoints), rays_, scratch).irradiance;
   brought_[patch] = brought / static_cast<float>(viewpoints);
-  for (int ray = 0; ray < settings_.rays; ++ray) {
+  for (int ray = 0; ray < patches_.rays(); ++ray) {
     const int number = ray % viewpoints;
     const std::uint32_t from = viewpoint(number);
-    const int rays_from_here = (settings_.rays - number + viewpoints - 1) / viewpoints;
+    const int rays_from_here = (patches_.rays() - number + viewpoints - 1) / viewpoints;
     const Sight sight = rays_.look(from, ray / viewpoints, rays_from_here, scratch);
     const auto i = row + static_cast<std::size_t>(ray);
     ends_[i] = End(sight.place, sight.place != kNoLuxel && bright_.is_left_to_rays(from, sight.place));
@@ -204,27 +159,16 @@ void Solver::look_around(std::size_t patch, LuxelRays::Scratch& scratch) {
 }
 
 glm::vec3 Solver::gather(std::size_t patch) const {
-  const auto row = patch * static_cast<std::size_t>(settings_.rays);
+  const auto row = patch * static_cast<std::size_t>(patches_.rays());
   glm::vec3 sum(0);
-  for (auto i = row; i < row + static_cast<std::size_t>(settings_.rays); ++i) {
+  for (auto i = row; i < row + static_cast<std::size_t>(patches_.rays()); ++i) {
     const End end = ends_[i];
     if (end.place() == kNoLuxel) continue;
     const glm::vec3 light =
         (end.is_counted() ? exitance_[end.place()] : glm::vec3(0)) + reflected(end.place());
     sum += tints_.empty() ? light : light * tints_[i];
   }
-  return brought_[patch] + sum / static_cast<float>(settings_.rays);
-}
-
-glm::vec3 Solver::gather_at(std::uint32_t place, LuxelRays::Scratch& scratch) const {
-  glm::vec3 sum(0);
-  for (int ray = 0; ray < settings_.rays; ++ray) {
-    const Sight sight = rays_.look(place, ray, settings_.rays, scratch);
-    if (sight.place == kNoLuxel) continue;
-    const bool is_counted = bright_.is_left_to_rays(place, sight.place);
-    sum += sight.tint * ((is_counted ? exitance_[sight.place] : glm::vec3(0)) + reflected(sight.place));
-  }
-  return bright_.irradiance_at(place, rays_, scratch) + sum / static_cast<float>(settings_.rays);
+  return brought_[patch] + sum / static_cast<float>(patches_.rays());
 }
 
 // What is still to come, if changes go on falling as these two did: change · q / (1 − q), q their quotient.
@@ -241,10 +185,7 @@ void Solver::bounce_between_patches() {
   std::vector<glm::vec3> next(patches_.count());
   double last_change = 0;
   while (bounces_ < between_patches_ && !progress_.asks_to_stop()) {
-    pool_.for_each(batches_of(next.size()), [&](std::size_t batch, int) {
-      const std::size_t last = std::min(next.size(), (batch + 1) * kBatch);
-      for (std::size_t patch = batch * kBatch; patch < last; ++patch) next[patch] = gather(patch);
-    });
+    pool_.for_each(next.size(), [&](std::size_t patch, int) { next[patch] = gather(patch); });
     double change = 0;
     for (std::size_t patch = 0; patch < next.size(); ++patch)
       change += std::abs(sum_of(next[patch] - patch_irradiance_[patch])) * patch_areas_[patch];
@@ -262,15 +203,9 @@ std::vector<glm::vec3> Solver::irradiance_of_luxels() {
       irradiance[tree_.order()[place]] = patch_irradiance_[place];
     return irradiance;
   }
-  std::vector<glm::vec3> by_place(irradiance.size());
-  in_parts(
-      lit_parts_, "lit", by_place.size(), kLuxelsPerPart,
-      [&](std::size_t place, LuxelRays::Scratch& scratch) {
-        by_place[place] = gather_at(static_cast<std::uint32_t>(place), scratch);
-      },
-      [&](std::size_t first, std::size_t last) {
-        return PartFiles::Values{std::as_writable_bytes(std::span(by_place).subspan(first, last - first))};
-      });
+  const std::vector<glm::vec3> by_place =
+      FinalGather(tree_, rays_, bright_, patches_, {exitance_, patch_irradiance_}, settings_.rays)
+          .irradiance(work_, lit_parts_);
   for (std::size_t place = 0; place < by_place.size(); ++place)
     irradiance[tree_.order()[place]] = by_place[place];
   ++bounces_;
@@ -278,18 +213,18 @@ std::vector<glm::vec3> Solver::irradiance_of_luxels() {
 }
 
 void Solver::look_around_all() {
-  const std::size_t rays = patches_.count() * static_cast<std::size_t>(settings_.rays);
+  const std::size_t rays = patches_.count() * static_cast<std::size_t>(patches_.rays());
   ends_.resize(rays);
   if (rays_.has_panes()) tints_.resize(rays);
   brought_.resize(patches_.count());
   patch_areas_.resize(patches_.count());
   for (std::uint32_t place = 0; place < tree_.luxels().size(); ++place)
     patch_areas_[patches_.of(place)] += static_cast<double>(tree_.luxels()[place].area);
-  in_parts(
-      seen_parts_, "seen", patches_.count(), kPatchesPerPart,
+  work_.run_in_parts(
+      seen_parts_, "seen", patches_.count(), kBatchesPerPart,
       [&](std::size_t patch, LuxelRays::Scratch& scratch) { look_around(patch, scratch); },
       [&](std::size_t first, std::size_t last) {
-        const auto rays_each = static_cast<std::size_t>(settings_.rays);
+        const auto rays_each = static_cast<std::size_t>(patches_.rays());
         PartFiles::Values values = {
             std::as_writable_bytes(std::span(brought_).subspan(first, last - first)),
             std::as_writable_bytes(std::span(ends_).subspan(first * rays_each, (last - first) * rays_each))};

@@ -306,6 +306,52 @@ TEST(Bake, ReflectedLightGoesOnWhereItWasStopped) {
   EXPECT_LT(resumed->report.resumed_parts, resumed->report.parts);
 }
 
+// Layers of a rig are in no glTF file, and change what surfaces reflect.
+TEST(Bake, ReflectedLightOfOtherLayersIsNotTakenUp) {
+  const TemporaryFolder folder;
+  BakeSettings settings;
+  settings.density = 40;
+  settings.samples = 1;
+  settings.interreflection = RadiositySettings{.rays = 16, .bounces = 3};
+  const Result<BakedScene> plain = bake_light(lit_shapes(), settings);
+  ASSERT_TRUE(plain);
+  Scene black = lit_shapes();
+  SurfaceLayer layer;
+  layer.color = glm::vec3(0);
+  for (Material& material : black.materials) material.layers.push_back(layer);
+  settings.work_file = folder.path() / "shapes.glb";
+  settings.resume = true;
+  ASSERT_FALSE(bake_light(black, settings, [](double done) { return done < 0.97; }));
+  ASSERT_TRUE(std::filesystem::exists(folder.path() / "shapes.glb.bake-lit-0"));
+  const Result<BakedScene> resumed = bake_light(lit_shapes(), settings);
+  ASSERT_TRUE(resumed);
+  EXPECT_GT(resumed->report.resumed_parts, 0U);  // direct light is the same
+  EXPECT_EQ(numbers_of(*resumed), numbers_of(*plain));
+}
+
+TEST(Bake, SceneSmallerThanItsLuxelsIsTold) {
+  const auto notes_at = [](double density) {
+    Scene scene;
+    Mesher mesher;
+    for (int i = 0; i < 100; ++i) {
+      const float x = 0.03F * static_cast<float>(i % 10), z = 0.03F * static_cast<float>(i / 10);
+      mesher.triangle({x, 0, z}, {x, 0, z + 0.003F}, {x + 0.02F, 0, z});
+    }
+    add_object(scene, "splinters", mesher.primitive);
+    add_light(scene, bulb("lamp", 10), {0, 1, 0}, {1, 0, 0});
+    BakeSettings settings;
+    settings.density = density;
+    std::string notes;
+    const BakedScene baked = bake_light(scene, settings).value();
+    for (const Diagnostic& note : baked.scene.warnings) notes += note.message;
+    return notes;
+  };
+  EXPECT_NE(notes_at(4).find("the scene is 0.398 m across, and luxels 0.25 m: about 2600 in a metre "),
+            std::string::npos)
+      << notes_at(4);
+  EXPECT_EQ(notes_at(400).find("across"), std::string::npos);
+}
+
 // All luxels that hold light are counted, once. A triangle that is thinner than rounding says nothing of the density.
 TEST(Bake, CountsWhatItHasDone) {
   Scene scene;
@@ -375,7 +421,7 @@ TEST(Bake, RefusesWhatMakesNoSense) {
     const auto y = static_cast<float>(i);
     mesher.triangle({0, y, 0}, {0, y, 0.9F}, {0.9F, y, 0});
   }
-  add_object(tiles, "tiles", mesher.primitive);
+  add_object(tiles, "splinters", mesher.primitive);
   EXPECT_EQ(
       message(tiles, settings),
       "max_size: the light maps would be more than 4096 of 16 luxels a side: ask for larger ones, or for a "

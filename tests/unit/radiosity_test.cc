@@ -87,6 +87,24 @@ TEST(Interreflection, many_luxels_are_grouped) {
   for (const glm::vec3& irradiance : solved.irradiance) ASSERT_NEAR(irradiance.x, 2, 0.01F);
 }
 
+// A wall without thickness parts a room; more luxels than patches. Nothing of the light on one side is shared with the other.
+TEST(Interreflection, walls_are_not_shared_across) {
+  LuxelRoom room;
+  const std::size_t lit = room.add({{0, 0, 1}, {1, 0, 0}, {0, 0, -1}, 100, 100, glm::vec3(0.5F)});
+  const std::size_t dark = room.add({{1, 0, 1}, {1, 0, 0}, {0, 0, -1}, 100, 100, glm::vec3(0.5F)});
+  const std::size_t lit_wall =
+      room.add({{1, 0, 1}, {0, 1, 0}, {0, 0, -1}, 100, 100, glm::vec3(0.5F), glm::vec3(1)});
+  ASSERT_LT(room.luxels[lit_wall].normal_ws.x, 0);
+  room.add({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 100, 100, glm::vec3(0.5F)});
+  const LitRoom parted(room);
+  const Interreflection solved = parted.solve({64, 2, 0}).value();
+  ASSERT_LT(solved.patch_count, parted.room.luxels.size());
+  for (std::size_t i = 0; i < 10000; ++i) {
+    EXPECT_GT(solved.irradiance[lit + i].x, 0.01F) << i;
+    EXPECT_EQ(solved.irradiance[dark + i].x, 0) << i;
+  }
+}
+
 TEST(Interreflection, threads_cannot_be_seen) {
   LuxelRoom room;
   room.add_box({0, 0, 0}, {1, 1, 1}, 8, true, glm::vec3(0.5F, 0.25F, 0.75F));
