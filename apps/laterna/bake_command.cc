@@ -26,7 +26,7 @@ namespace {
 struct Options {
   SceneOptions scene;
   BakeSettings bake;
-  std::string output, quake;
+  std::string output, quake, into = "light-maps";
   bool embeds = false, json = false;
   RadiositySettings radiosity{.bounces = 0};
   std::optional<double> stops;
@@ -144,6 +144,7 @@ Result<BakedScene> bake(Scene scene, BakeSettings settings) {
 }
 
 int run_bake(Options options) {
+  options.bake.into = options.into == "emissive" ? BakeInto::emissive : BakeInto::light_maps;
   if (const Result<void> possible = check_scene_output(options.output); !possible)
     return report(possible.error());
   if (options.stops && options.bake.into != BakeInto::emissive)
@@ -240,13 +241,11 @@ void declare_bake(CLI::App& app, Run& run) {
                       "metres: what is farther away hides no ambient light (default: everything does)");
   command
       ->add_option(
-          "--into", b.into,
+          "--into", o.into,
           "light-maps: for Laterna; emissive: light times colour into emissive textures, for every program "
           "that reads glTF")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, BakeInto>{{"light-maps", BakeInto::light_maps},
-                                                                  {"emissive", BakeInto::emissive}})
-              .description(""));
+      ->check(CLI::IsMember({"light-maps", "emissive"}))
+      ->capture_default_str();
   command
       ->add_option("--exposure", o.stops,
                    "stops, with --into emissive, whose textures end at white (default: automatic)")

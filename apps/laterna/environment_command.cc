@@ -131,7 +131,30 @@ int report_split_sum(const Options& options) {
   return kOk;
 }
 
-int run_environment(const Options& options) {
+// What is said of a picture beside what is said of a scene, or of a table: one of them would be left aside without a word.
+Result<void> check_use(const CLI::App& command, const Options& options) {
+  const auto refuse_with = [&](std::initializer_list<const char*> names,
+                               std::string_view why) -> Result<void> {
+    for (const char* name : names) {
+      if (command.count(name) > 0) return tl::unexpected(bad_option(fmt::format("{} {}", name, why)));
+    }
+    return {};
+  };
+  if (options.list_charts)
+    return refuse_with({"IN", "OUT", "--from", "--from-scene", "--at", "--split-sum", "--exposure"},
+                       "is of no use with --list-charts, which reads and writes no picture");
+  if (options.split_sum)
+    return refuse_with({"OUT", "--chart", "--size", "--from-scene", "--at", "--exposure"},
+                       "is of no use with --split-sum, which reads IN and prints a table");
+  if (options.scene.files.empty())
+    return refuse_with({"--at", "--rig", "--samples"}, "belongs to --from-scene");
+  if (command.count("IN") > 0 && command.count("OUT") > 0)
+    return tl::unexpected(bad_option("--from-scene is in place of IN: name only the picture to write"));
+  return refuse_with({"--from"}, "belongs to IN: what is drawn of a scene is a cube");
+}
+
+int run_environment(const CLI::App& command, const Options& options) {
+  if (const Result<void> used = check_use(command, options); !used) return report(used.error());
   if (options.list_charts) return list_charts(options);
   if (options.split_sum) return report_split_sum(options);
   const bool is_of_scene = !options.scene.files.empty();
@@ -139,6 +162,8 @@ int run_environment(const Options& options) {
   if (is_of_scene && output.empty()) output = options.input;
   if (output.empty())
     return report(bad_option("expected a picture to read and one to write: laterna environment IN OUT"));
+  if (command.count("--exposure") > 0 && !output.ends_with(".png"))
+    return report(bad_option("--exposure belongs to .png: other pictures keep the light as it is"));
   if (Result<void> writable = check_image_output(output); !writable) return report(writable.error());
   const Result<Source> source = is_of_scene ? draw_source(options) : read_source(options);
   if (!source) return report(source.error());
@@ -206,7 +231,8 @@ void declare_environment(CLI::App& app, Run& run) {
       "\nExamples:\n  laterna environment sky.hdr cube.exr --chart cube --size 512\n"
       "  laterna environment --list-charts\n"
       "  laterna environment --from-scene room.glb --rig stage.json --at 0,1.5,0 -o room.hdr\n");
-  command->callback([options, &run] { run = [options] { return run_environment(*options); }; });
+  command->callback(
+      [options, command, &run] { run = [options, command] { return run_environment(*command, *options); }; });
 }
 
 }  // namespace laterna::app

@@ -2,9 +2,13 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -37,6 +41,13 @@ int report_unknown_command(const CLI::App& app, const std::string& name) {
   return laterna::app::kBadUsage;
 }
 
+// "laterna help bake" is "laterna bake --help".
+void ask_for_help(std::vector<std::string>& words) {
+  words.erase(words.begin());
+  words.resize(std::min<std::size_t>(words.size(), 1));
+  words.emplace_back("--help");
+}
+
 constexpr const char* kFooter =
     "\nExamples:\n"
     "  laterna render scene.glb -o picture.png\n"
@@ -54,6 +65,11 @@ int main(int argc, char** argv) {
   CLI::App app(kDescription, "laterna");
   app.footer(kFooter);
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
+    const std::string help =
+        failed->get_help_ptr() == nullptr ? "" : "Run with --help for more information.\n";
+    return fmt::format("laterna: error: {}\n{}", error.what(), help);
+  });
   app.set_version_flag("--version", "laterna " + laterna::version());
   laterna::app::Run run;
   for (const laterna::app::DeclareCommand declare :
@@ -65,11 +81,13 @@ int main(int argc, char** argv) {
         laterna::app::declare_doctor}) {
     declare(app, run);
   }
-  if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1])) {
-    return report_unknown_command(app, argv[1]);
-  }
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (!words.empty() && words.front() == "help") ask_for_help(words);
+  if (!words.empty() && !words.front().starts_with('-') && !is_command(app, words.front()))
+    return report_unknown_command(app, words.front());
   try {
-    app.parse(argc, argv);
+    std::ranges::reverse(words);  // as parse() takes them
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& e) {
     const int code = app.exit(e);
     return code == 0 ? laterna::app::kOk : laterna::app::kBadUsage;

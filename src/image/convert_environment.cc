@@ -57,10 +57,15 @@ Result<LayeredImage> convert_environment(const LayeredImage& picture,
       return bad_picture("the picture holds a value that is not finite");
   }
   const image::EnvironmentPicture source(conversion.from, picture.width, picture.height, texels);
-  const int size = conversion.size > 0 ? conversion.size : size_like(source, conversion.to);
-  const TaskPool pool(conversion.threads);
-  const std::vector<glm::vec3> out = image::resample(source, conversion.to, size, pool);
   const image::ChartShape shape = image::chart_shape(conversion.to);
+  // To its own chart at its own size a picture goes as it is: to filter it would only blur it.
+  const bool is_own_chart = conversion.to == conversion.from;
+  const int own_size = picture.height / shape.rows;
+  int size = conversion.size;
+  if (size == 0) size = is_own_chart ? own_size : size_like(source, conversion.to);
+  const TaskPool pool(conversion.threads);
+  const std::vector<glm::vec3> out =
+      is_own_chart && size == own_size ? texels : image::resample(source, conversion.to, size, pool);
   LayeredImage converted;
   converted.width = shape.columns * size;
   converted.height = shape.rows * size;

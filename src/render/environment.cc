@@ -53,8 +53,9 @@ Result<image::EnvironmentMap> from_picture(const Scene& scene, const TaskPool& p
       environment.chart ? environment.chart : guess_environment_chart(pixels.width(), pixels.height());
   if (!chart) {
     return fault_of(picture,
-                    fmt::format("cannot tell the chart of an environment of {} x {}: name it (2:1 is taken "
-                                "for latlong, 6:1 for cube, 4:3 and 3:4 for crosses)",
+                    fmt::format("cannot tell the chart of an environment of {} x {}: name it by the key "
+                                "\"chart\" of a rig's \"environment\" (2:1 is taken for latlong, 6:1 for "
+                                "cube, 4:3 and 3:4 for crosses)",
                                 pixels.width(), pixels.height()));
   }
   if (std::string fault = find_fault(*chart, pixels.width(), pixels.height()); !fault.empty())

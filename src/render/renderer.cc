@@ -228,7 +228,9 @@ Result<View> Renderer::light_view(const std::string& name) const {
   const Result<light::PlannedLight> planned = implementation_->planned_light(name);
   if (!planned) return tl::unexpected(planned.error());
   if (planned->shadow_views.size() == 1) return planned->shadow_views[0].view;
-  return refuse("light \"" + name + "\" shines all round: it has no one view");
+  return refuse("light \"" + name +
+                "\" shines all round: it has no one view (a picture of all directions from there draws "
+                "`laterna environment --from-scene`)");
 }
 
 Result<const frame::PlacedLight*> Renderer::Implementation::find_projector(const std::string& name) const {

@@ -37,6 +37,15 @@ class Bake(unittest.TestCase):
         return run("bake", SCENES / "room.glb", "--rig", SCENES / "lamps.json", "-o", self.baked, "--density", "2",
                    "--accumulate", "1", *options)
 
+    def test_help_is_had_either_way(self):
+        asked = run("help", "bake")
+        self.assertEqual(asked.returncode, 0, asked.stderr)
+        self.assertEqual(asked.stdout, run("bake", "--help").stdout)
+        self.assertEqual(run("help").stdout, run("--help").stdout)
+        wrong = run("bake", "room.glb", "-o", "out.glb", "--into", "lightmaps")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("laterna: error: --into: lightmaps not in {light-maps,emissive}", wrong.stderr)
+
     def test_the_environment_goes_along(self):
         sky = self.place / "sky.pfm"
         sky.write_bytes(b"PF\n32 16\n-1\n" + struct.pack("<3f", 0.2, 0.4, 0.8) * 512)

@@ -54,6 +54,30 @@ class Environment(unittest.TestCase):
             self.assertEqual((told["width"], told["height"]), shape)
             self.assertEqual((told["from"], told["chart"]), ("latlong", chart))
 
+    def test_own_chart_and_size_are_a_copy(self):
+        for chart in ("latlong", "cube", "sphere"):
+            first, second = self.place / f"{chart}.pfm", self.place / f"{chart}2.pfm"
+            self.assertEqual(run("environment", self.sky, first, "--chart", chart, "--size", "16").returncode, 0)
+            self.assertEqual(run("environment", first, second, "--from", chart, "--chart", chart).returncode, 0)
+            self.assertEqual(first.read_bytes(), second.read_bytes(), chart)
+        self.assertEqual(run("environment", self.sky, self.place / "same.pfm").returncode, 0)
+        texels = 32 * 16 * 12
+        self.assertEqual((self.place / "same.pfm").read_bytes()[-texels:], self.sky.read_bytes()[-texels:])
+
+    def test_nothing_that_is_said_is_left_aside(self):
+        out, scene = self.place / "out.exr", SCENES / "room.glb"
+        for said, told in (
+                ((self.sky, out, "--from-scene", scene, "--at", "0,1,0"), "--from-scene is in place of IN"),
+                ((self.sky, out, "--at", "0,1,0"), "--at belongs to --from-scene"),
+                ((self.sky, out, "--split-sum"), "OUT is of no use with --split-sum"),
+                ((self.sky, "--list-charts"), "IN is of no use with --list-charts"),
+                ((self.sky, out, "--exposure", "2"), "--exposure belongs to .png")):
+            done = run("environment", *said)
+            self.assertEqual(done.returncode, 2, said)
+            self.assertIn("laterna: error: ", done.stderr)
+            self.assertIn(told, done.stderr)
+            self.assertFalse(out.exists())
+
     def test_bad_usage_and_bad_input(self):
         nothing = run("environment", self.sky)
         self.assertEqual(nothing.returncode, 2)
