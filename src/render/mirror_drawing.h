@@ -29,9 +29,10 @@ class MirrorDrawing {
   /// Draws a part of a view's picture with those mirrors in it.
   using DrawPart = std::function<void(const View& view, const PicturePart& part, shade::MirrorJob mirrors)>;
 
-  /// All must outlive it. Width and height: of the picture, in pixels, each of so many samples; `seconds`: scene time, which moves waves.
+  /// All must outlive it. Width and height: of the picture, in pixels, each of so many samples;
+  /// `seconds`: scene time, which moves waves; `of_mean`: which picture of a mean it is.
   MirrorDrawing(const frame::Frame& frame, const light::MirrorPlan& plan, int width, int height, int samples,
-                double seconds, DrawPart draw_part);
+                double seconds, SampleIndex of_mean, DrawPart draw_part);
 
   /// The mirrors in the picture's own view.
   [[nodiscard]] shade::MirrorJob draw() const { return draw_seen_by(-1); }
@@ -39,11 +40,13 @@ class MirrorDrawing {
  private:
   [[nodiscard]] shade::MirrorJob draw_seen_by(int parent) const;
   [[nodiscard]] std::unique_ptr<const shade::MirrorPicture> draw_picture(int index) const;
-  [[nodiscard]] std::vector<bool> clusters_in_plane_of(int mirror) const;
+  void leave_out_plane_of(int mirror, std::vector<bool>& clusters) const;
+  [[nodiscard]] std::vector<bool> left_out_of(const light::MirrorView& seen) const;
 
   const light::MirrorPlan& plan_;
   int width_, height_, samples_;
   double seconds_;
+  SampleIndex of_mean_;
   DrawPart draw_part_;
   std::vector<int> mirror_of_cluster_;
 };

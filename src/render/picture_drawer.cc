@@ -370,7 +370,7 @@ Result<shade::MirrorJob> PictureDrawer::draw_mirrors(const View& from, const Ren
       outcome = draw_part(view, plain, sample, part, std::move(within), statistics, progress);
   };
   shade::MirrorJob mirrors = MirrorDrawing(frame(), *plan, settings.width, settings.height, settings.samples,
-                                           posed_.time(), draw_one)
+                                           posed_.time(), sample, draw_one)
                                  .draw();
   if (!outcome) return tl::unexpected(std::move(outcome.error()));
   return mirrors;

@@ -1,31 +1,13 @@
 #include "shade/mirror_blur.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/vec2.hpp>
-
-#include "base/elementary.h"
 
 namespace laterna::shade {
 namespace {
 
-// Rays of a cone, as places of the unit disc that they fill evenly: Vogel 1979, A better way to construct the sunflower head.
-constexpr int kRays = 48;
-constexpr float kRaysAcross = 7;  // a level's pixels are as large as what lies between them
-
-const std::array<glm::vec2, kRays>& rays_of_cone() {
-  static const std::array<glm::vec2, kRays> rays = [] {
-    constexpr double kGoldenAngle = 2.39996322972865332;
-    std::array<glm::vec2, kRays> made;
-    for (int i = 0; i < kRays; ++i) {
-      const double radius = std::sqrt((i + 0.5) / kRays), angle = kGoldenAngle * i;
-      made[static_cast<std::size_t>(i)] = glm::vec2(radius * cosine(angle), radius * sine(angle));
-    }
-    return made;
-  }();
-  return rays;
-}
+constexpr float kRaysAcross = 7;  // of a disc; a level's pixels are as large as what lies between them
 
 // Pixels: what is mirrored at a radius of less touches the mirror.
 constexpr float kContact = 1;
@@ -92,7 +74,7 @@ glm::vec3 blurred(const MirrorPicture& picture, const raster::RasterView& view, 
   }
   const int first_step = at_once < widest / (kSteps * kSteps) ? 0 : 1;
   glm::vec3 sum(0);
-  for (const glm::vec2& ray : rays_of_cone()) {
+  for (const glm::vec2& ray : picture.cone_rays()) {
     glm::vec4 seen = look(ray, 0);  // where the ray was last in the open
     float open = 0;
     for (int step = first_step; step <= kSteps; ++step) {
@@ -117,7 +99,7 @@ glm::vec3 blurred(const MirrorPicture& picture, const raster::RasterView& view, 
     }
     sum += glm::vec3(seen);
   }
-  return sum / static_cast<float>(kRays);
+  return sum / static_cast<float>(kConeRays);
 }
 
 }  // namespace laterna::shade

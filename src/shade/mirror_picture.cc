@@ -6,11 +6,12 @@
 namespace laterna::shade {
 
 MirrorPicture::MirrorPicture(const light::MirrorView& seen, const Mirror& mirror, int width, int height,
-                             int samples, double seconds)
+                             int samples, double seconds, SampleIndex of_mean)
     : mirror_(&mirror),
       seen_(seen),
       samples_(static_cast<std::size_t>(samples)),
       seconds_(seconds),
+      cone_rays_(shade::cone_rays(of_mean)),
       drawn_(seen.view, width, height),
       box_(seen.is_refracted ? seen.box : light::mirrored(seen.box, width)),
       levels_(1) {
@@ -52,15 +53,14 @@ void MirrorPicture::find_extent() {
       const float nearness = finest.at(x, y).w;
       if (nearness <= 0) continue;
       farthest_ = std::max(farthest_, 1 / nearness);
-      if (!seen_.is_refracted) continue;
-      const double pixel_x = box_.x_begin + x + 0.5 - drawn.origin_x,
-                   pixel_y = box_.y_begin + y + 0.5 - drawn.origin_y;
+      const int column = seen_.is_refracted ? box_.x_begin + x : drawn.width - 1 - (box_.x_begin + x);
+      const double pixel_x = column + 0.5 - drawn.origin_x, pixel_y = box_.y_begin + y + 0.5 - drawn.origin_y;
       const glm::dvec3 ray = drawn.direction_0 + drawn.direction_x * pixel_x + drawn.direction_y * pixel_y;
       const double distance = 1 / static_cast<double>(nearness);
       const glm::dvec3 place = drawn.is_orthographic
                                    ? ray + drawn.axis_ws * drawn.reversed_from_distance(distance)
                                    : drawn.eye_ws + ray * distance;
-      deepest_ = std::max(deepest_, side(place));
+      deepest_ = std::max(deepest_, seen_.side(place));
     }
   }
 }
@@ -110,13 +110,13 @@ const glm::vec4& MirrorPicture::nearest(float x, float y) const {
   return at(pixel(x, box_.x_begin, box_.x_end), pixel(y, box_.y_begin, box_.y_end));
 }
 
-float MirrorPicture::nearness(float x, float y) const {
+glm::vec4 MirrorPicture::on_surface(float x, float y) const {
   constexpr float kMostChange = 0.02F;  // of the nearest, from pixel to pixel of one surface
   const auto corner = [](float place) { return std::clamp(std::floor(place - 0.5F), -1e6F, 1e6F); };
   const int i = static_cast<int>(corner(x)), j = static_cast<int>(corner(y));
   const float taps[] = {at(i, j).w, at(i + 1, j).w, at(i, j + 1).w, at(i + 1, j + 1).w};
   const auto [least, most] = std::minmax_element(std::begin(taps), std::end(taps));
-  return *most - *least <= kMostChange * *most ? interpolated(x, y, 0).w : nearest(x, y).w;
+  return *most - *least <= kMostChange * *most ? interpolated(x, y, 0) : nearest(x, y);
 }
 
 int MirrorPicture::level_of(float side) const {

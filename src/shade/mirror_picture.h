@@ -2,6 +2,7 @@
 // turned for it.
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "laterna/mirrors.h"
 #include "light/mirror_plan.h"
+#include "shade/cone_rays.h"
 #include "shade/mirror_samples.h"
 #include "shade/tile_layers.h"
 
@@ -16,9 +18,10 @@ namespace laterna::shade {
 
 class MirrorPicture {
  public:
-  /// `seen`: drawn into a picture of `width` × `height` pixels of so many samples. `mirror` must outlive this.
+  /// `seen`: drawn into a picture of `width` × `height` pixels of so many samples, one of a
+  /// mean. `mirror` must outlive this.
   MirrorPicture(const light::MirrorView& seen, const Mirror& mirror, int width, int height, int samples,
-                double seconds);
+                double seconds, SampleIndex of_mean);
 
   [[nodiscard]] const Mirror& mirror() const { return *mirror_; }
   /// Of the mirror, toward the eye.
@@ -27,9 +30,13 @@ class MirrorPicture {
   [[nodiscard]] bool sees_back() const { return seen_.sees_back; }
   /// The view of the picture, as it was drawn.
   [[nodiscard]] const raster::RasterView& drawn() const { return drawn_; }
-  /// Metres from the mirror's plane into what is shown.
-  [[nodiscard]] double side(const glm::dvec3& position_ws) const { return seen_.side(position_ws); }
+  /// Metres from the mirror's plane, away from the eye.
+  [[nodiscard]] double metres_behind(const glm::dvec3& position_ws) const {
+    return seen_.offset - glm::dot(seen_.normal_ws, position_ws);
+  }
   [[nodiscard]] double seconds() const { return seconds_; }
+  /// Of rough mirrors.
+  [[nodiscard]] const ConeRays& cone_rays() const { return cone_rays_; }
   /// Whether depths are looked at: WantedLayers::geometry must be set.
   [[nodiscard]] bool needs_depth() const {
     return mirror_->roughness > 0 || !mirror_->waves.empty() || seen_.is_refracted;
@@ -52,8 +59,9 @@ class MirrorPicture {
   [[nodiscard]] glm::vec4 interpolated(float x, float y, int level) const;
   /// What at() has at the pixel that a place of the picture lies in, wherever that is.
   [[nodiscard]] const glm::vec4& nearest(float x, float y) const;
-  /// 1 / metres at a place of the picture: between pixels on a surface, and of the pixel that the place lies in where surfaces end.
-  [[nodiscard]] float nearness(float x, float y) const;
+  /// What at() has at a place of the picture: between pixels on a surface, and of the pixel that the place lies in where surfaces end.
+  [[nodiscard]] glm::vec4 on_surface(float x, float y) const;
+  [[nodiscard]] float nearness(float x, float y) const { return on_surface(x, y).w; }
   /// Of all that is shown, metres along the axis; 0 where there is nothing.
   [[nodiscard]] float farthest() const { return farthest_; }
   /// The same, from the mirror's plane.
@@ -74,6 +82,7 @@ class MirrorPicture {
   light::MirrorView seen_;
   std::size_t samples_;
   double seconds_;
+  ConeRays cone_rays_;
   raster::RasterView drawn_;
   light::PixelBox box_;  // of the view's picture
   float farthest_ = 0;

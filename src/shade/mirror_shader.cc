@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "shade/fresnel.h"
 #include "shade/mirror_blur.h"
-#include "shade/refracted_ray.h"
+#include "shade/picture_ray.h"
+#include "shade/refraction.h"
 #include "shade/water_waves.h"
 
 namespace laterna::shade {
@@ -54,36 +56,16 @@ MirrorShader::Sight MirrorShader::sight_of(const MirrorPicture& picture, const M
 }
 
 // Where in the picture the ray from a place of the mirror ends that its waves send elsewhere: the ray is mirrored in the plane,
-// into the space that the picture shows, and followed to the depth that the picture has there. That depth is taken at the sample
-// first, and once more where it leads.
-glm::vec2 MirrorShader::displaced(const MirrorPicture& picture, const MirrorSample& sample,
-                                  const Sight& sight, const glm::dvec3& normal_ws) const {
+// into the space that the picture seems to show, and followed there.
+glm::vec2 MirrorShader::displaced(const MirrorPicture& picture, const Sight& sight,
+                                  const glm::dvec3& normal_ws) const {
   const glm::dvec3& n = picture.normal_ws();
   const glm::dvec3 reflected = sight.along_ws - 2 * glm::dot(sight.along_ws, normal_ws) * normal_ws;
   // Not into the water: a ray that would meets another wave, and goes on.
   const glm::dvec3 behind = reflected - (glm::dot(reflected, n) + std::abs(glm::dot(reflected, n))) * n;
-  const double forward = glm::dot(behind, view_.view.pose.forward_ws());
-  glm::dvec2 place(sample.x, sample.y);
-  const glm::dvec2 origin =
-      glm::dvec2(view_.origin_x, view_.origin_y) - glm::dvec2(sampled_at_.x, sampled_at_.y);
-  if (forward <= 1e-3) return place + origin;
-  const double from = view_.distance_from_reversed(sample.q);
-  for (int step = 0; step < 2; ++step) {
-    const float nearness =
-        picture
-            .interpolated(static_cast<float>(place.x + origin.x), static_cast<float>(place.y + origin.y), 0)
-            .w;
-    // place + t · behind, all divided by t, so that t may be infinite.
-    const double inverse_t = nearness <= 0 ? 0 : forward * nearness / std::max(1 - from * nearness, 1e-6);
-    if (view_.is_orthographic) {
-      const glm::dvec3 end = sight.place_ws - view_.eye_ws + behind / std::max(inverse_t, 1e-6);
-      place = {glm::dot(view_.x_row, end) + view_.x_add, glm::dot(view_.y_row, end) + view_.y_add};
-    } else {
-      const glm::dvec3 end = (sight.place_ws - view_.eye_ws) * inverse_t + behind;
-      place = glm::dvec2(glm::dot(view_.x_row, end), glm::dot(view_.y_row, end)) / glm::dot(view_.w_row, end);
-    }
-  }
-  return place + origin;
+  const PictureRay ray(picture, view_, sight.place_ws, behind, sampled_at_);
+  if (const std::optional<glm::vec2> end = ray.find_end_on_one_surface()) return *end;
+  return ray.find_end_in_sight();
 }
 
 // A roughness r spreads mirrored rays about twice as far as facets are tilted, whose slopes are about r² (GGX).
@@ -108,9 +90,9 @@ Mirroring MirrorShader::reflect(const MirrorPicture& picture, const MirrorSample
   const glm::dvec3 normal =
       normal_on_waves(mirror, picture.normal_ws(), sight.place_ws, sight.footprint, picture.seconds());
   const glm::vec3 share = share_of(picture, cosine_to(normal, sight.along_ws));
-  const glm::vec2 place = displaced(picture, sample, sight, normal);
+  const glm::vec2 place = displaced(picture, sight, normal);
   if (mirror.roughness > 0) return {rough(picture, sample, place.x, place.y), share};
-  return {glm::vec3(picture.interpolated(place.x, place.y, 0)), share};
+  return {glm::vec3(picture.on_surface(place.x, place.y)), share};
 }
 
 glm::vec3 MirrorShader::refract(const MirrorPicture& picture, const MirrorSample& sample) const {
@@ -121,10 +103,10 @@ glm::vec3 MirrorShader::refract(const MirrorPicture& picture, const MirrorSample
   const double index = index_of(picture);
   const std::optional<glm::dvec3> direction = refracted(sight.along_ws, normal, index);
   if (!direction) return glm::vec3(0);  // all of it is mirrored
-  const RefractedRay ray(picture, sight.place_ws, *direction, sampled_at_);
-  const RefractedRay::End end = ray.find_end();
+  const PictureRay ray(picture, picture.drawn(), sight.place_ws, *direction, sampled_at_);
+  const PictureRay::End end = ray.find_end();
   const glm::vec3 share = picture.sees_back() ? glm::vec3(1) : attenuation(*mirror.volume, end.distance);
-  if (mirror.roughness == 0) return share * glm::vec3(picture.interpolated(end.place.x, end.place.y, 0));
+  if (mirror.roughness == 0) return share * glm::vec3(picture.on_surface(end.place.x, end.place.y));
   // A facet that is tilted by an angle turns what it refracts by (1 − 1/n) of it, and what it mirrors by twice of it.
   const auto bend = static_cast<float>(std::abs(1 - 1 / index));
   return share * blurred(picture, picture.drawn(), bend * mirror.roughness * mirror.roughness,

@@ -70,8 +70,8 @@ class MirrorShader {
   }
   [[nodiscard]] glm::dvec3 ray_of(const MirrorSample& sample) const;
   [[nodiscard]] Sight sight_of(const MirrorPicture& picture, const MirrorSample& sample) const;
-  [[nodiscard]] glm::vec2 displaced(const MirrorPicture& picture, const MirrorSample& sample,
-                                    const Sight& sight, const glm::dvec3& normal_ws) const;
+  [[nodiscard]] glm::vec2 displaced(const MirrorPicture& picture, const Sight& sight,
+                                    const glm::dvec3& normal_ws) const;
   [[nodiscard]] glm::vec3 rough(const MirrorPicture& picture, const MirrorSample& sample, float x,
                                 float y) const;
 

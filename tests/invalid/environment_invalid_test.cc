@@ -141,7 +141,8 @@ TEST(InvalidEnvironment, PicturesOfTheWrongShape) {
   EXPECT_EQ(message_of(1, 1, EnvironmentChart::sphere), "made");
   EXPECT_EQ(
       message_of(8, 8, {}),
-      "sky.png: cannot tell the chart of an environment of 8 x 8: name it (2:1 is taken for latlong, 6:1 for "
+      "sky.png: cannot tell the chart of an environment of 8 x 8: name it by the key \"chart\" of a rig's "
+      "\"environment\" (2:1 is taken for latlong, 6:1 for "
       "cube, 4:3 and 3:4 for crosses)");
   EXPECT_EQ(message_of(9, 3, EnvironmentChart::cube),
             "sky.png: a picture in the chart cube is 6:1; this one is 9 x 3");

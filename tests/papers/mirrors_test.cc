@@ -331,6 +331,28 @@ TEST(Mirrors, RoughOnesLeaveNoGapAtContacts) {
   }
 }
 
+// Nor do waves, which send rays to where the mirrored picture shows what the plane cuts off. They look at the means of pixels,
+// though, and that of the last one before the wall is not the wall's alone.
+TEST(Mirrors, WavesLeaveNoGapAtContacts) {
+  Mirror waves;
+  waves.waves = {{{0, 1, 0}, 0.3, 0.002, {}, 0}, {{0, 0.6, 0.8}, 0.5, 0.003, {}, 0}};
+  const Renderer renderer = make_renderer(black_wall_on_a_mirror(waves));
+  for (const double aside : {0.3, -0.6, -0.9}) {
+    const View view = look({aside, 0, 0}, {-0.9, 0, -3}, 30, 2.5);
+    const int contact = static_cast<int>(pixel_of(view, {-1, 0, -3}, 401, 160).x);
+    for (const auto& [samples, accumulate] : {std::pair(1, 1), std::pair(1, 8), std::pair(4, 1)}) {
+      RenderSettings settings = test_settings(401, 160);
+      settings.samples = samples;
+      settings.accumulate = accumulate;
+      const LayeredImage image = render(renderer, view, settings);
+      for (int y = 10; y < 150; ++y) {
+        for (int x = contact - 10; x < contact + 10; ++x)
+          EXPECT_LE(at(image, "R", x, y), samples > 1 ? 0.4 : 0) << samples << " samples: " << x << ", " << y;
+      }
+    }
+  }
+}
+
 Scene pool(const Mirror& water, bool is_clear = false) {
   Scene scene = slide_show();
   add_object(scene, "water", floor(3, -1.5F), {0.1F, 0.2F, 0.2F});
@@ -431,6 +453,33 @@ TEST(Mirrors, RoughOnesBlurByDistance) {
     const double expected = 1.374 * 2 * 0.04 * t / (8 + t) * pixels_per_tangent;
     EXPECT_NEAR(std::abs(rise_of(static_cast<float>(t))), expected, 0.12 * expected + 1) << t;
   }
+}
+
+// What the rays of one picture leave out those of the next see: the rings and spokes of their pattern go as pictures are added.
+TEST(Mirrors, RoughOnesGetSmoothAsPicturesAreAdded) {
+  Scene scene = dark();
+  Mirror rough;
+  rough.roughness = 0.3F;
+  add_mirror(scene, 20, 0, rough);
+  Mesher lattice;
+  for (int bar = -10; bar <= 10; ++bar) {
+    const auto x = 0.4F * static_cast<float>(bar);
+    lattice.quad({x, -9, 2}, {x - 0.05F, -9, 2}, {x - 0.05F, 9, 2}, {x, 9, 2});
+  }
+  add_glowing(scene, "lattice", lattice.primitive);
+  const Renderer renderer = make_renderer(std::move(scene));
+  const auto unevenness = [&](int pictures) {
+    RenderSettings settings = test_settings(128, 128);
+    settings.accumulate = pictures;
+    const LayeredImage image = render(renderer, look({0.01, 0, 8}, {0.01, 0, 0}, 40, 1), settings);
+    double sum = 0;
+    for (int y = 32; y < 96; ++y) {
+      const auto row = row_of(image, "R", y);
+      for (std::size_t x = 32; x < 96; ++x) sum += std::abs(row[x - 1] - 2 * row[x] + row[x + 1]);
+    }
+    return sum;
+  };
+  EXPECT_LT(unevenness(16), unevenness(1) / 3);
 }
 
 // Where rays go on in parallel, the blur grows by distance alone; how far the view reaches has no part in it.

@@ -174,8 +174,10 @@ TEST(RenderLightViews, ALightSeesWhatItsShadowMapHolds) {
     EXPECT_EQ(renderer.depth_map_views(name)->size(), 1U);
   }
   EXPECT_EQ(renderer.depth_map_views("bulb")->size(), 6U);
-  EXPECT_EQ(to_string(renderer.light_view("bulb").error()),
-            "light \"bulb\" shines all round: it has no one view");
+  EXPECT_EQ(
+      to_string(renderer.light_view("bulb").error()),
+      "light \"bulb\" shines all round: it has no one view (a picture of all directions from there draws "
+      "`laterna environment --from-scene`)");
   EXPECT_EQ(to_string(renderer.depth_map("bulb", 6).error()),
             "light \"bulb\" has 6 depth maps, counted from 0; there is no number 6");
   EXPECT_EQ(to_string(renderer.light_view("star").error()).substr(0, 45),

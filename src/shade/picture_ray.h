@@ -1,29 +1,22 @@
-// Rays that go on behind a surface, bent: where they end in a picture of what lies there. docs/mirrors.md
+// Rays that go on behind a surface, bent or mirrored: where they end in a picture of what is seen there. docs/mirrors.md
 #pragma once
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "laterna/mirrors.h"
 #include "raster/raster_view.h"
 #include "shade/mirror_picture.h"
 
 namespace laterna::shade {
 
-/// Snell's law: the unit direction behind a surface of a unit ray that meets it from before, on the side of its unit normal; `index`:
-/// that of what lies behind over that of what lies before. None: total reflection.
-std::optional<glm::dvec3> refracted(const glm::dvec3& along, const glm::dvec3& normal, double index);
-
-/// What is left of light that went so many metres, which may be infinitely many.
-glm::vec3 attenuation(const MirrorVolume& volume, double metres);
-
-class RefractedRay {
+class PictureRay {
  public:
-  /// From a place of the mirror, in a unit direction, through the space that the picture shows. `sampled_at`: where in its pixels the
-  /// picture's sample lies, from their centres. The picture must outlive it.
-  RefractedRay(const MirrorPicture& picture, const glm::dvec3& place_ws, const glm::dvec3& direction_ws,
-               glm::vec2 sampled_at);
+  /// From a place of the mirror, in a unit direction away from the eye, through the space behind the plane: what is refracted lies
+  /// there, and what is mirrored seems to. `view`: whose pixels the picture's are: the eye's where it is mirrored, its own where
+  /// it is refracted. `sampled_at`: where in its pixels the picture's sample lies, from their centres. All must outlive it.
+  PictureRay(const MirrorPicture& picture, const raster::RasterView& view, const glm::dvec3& place_ws,
+             const glm::dvec3& direction_ws, glm::vec2 sampled_at);
 
   struct End {
     glm::vec2 place;  ///< of the picture, as MirrorPicture::interpolated() has it
@@ -33,6 +26,12 @@ class RefractedRay {
   /// passes behind something, where the picture does not look, ends as far on this side of where it did so: what is there goes on,
   /// turned over.
   [[nodiscard]] End find_end() const;
+  /// The place alone; a ray that meets nothing goes on without end, and one that passes behind something ends before it does, if what
+  /// would be met without end is nothing that the picture knows.
+  [[nodiscard]] glm::vec2 find_end_in_sight() const;
+  /// The same where one surface is all that the picture shows from where the ray starts to where it ends, found in three looks. None:
+  /// depths leap on the way.
+  [[nodiscard]] std::optional<glm::vec2> find_end_on_one_surface() const;
   /// Of the place that it comes from, metres along the axis of the picture's view.
   [[nodiscard]] double start() const { return start_; }
 
@@ -43,11 +42,20 @@ class RefractedRay {
     double distance;  // metres along the view's axis
   };
   [[nodiscard]] Point at(double t) const;
+  // Where the way is 1 / nearness metres deep along the view's axis.
+  [[nodiscard]] glm::vec2 place_as_near_as(float nearness) const;
   // How far a place on the way lies behind what the picture shows there, metres along the view's axis; −∞ where that is nothing.
   [[nodiscard]] double behind(const Point& point) const;
   // t between which and `after` the ray passes behind something; none: it does not meet it.
   [[nodiscard]] std::optional<double> meets(double before, double after) const;
+  // The last place before the picture shows nothing, where what it shows there lies within two pixels of the way.
+  [[nodiscard]] std::optional<glm::vec2> meets_foot(glm::dvec2 open) const;
   [[nodiscard]] double most() const;
+  struct March {
+    std::optional<double> met, last_seen;  // t; last_seen: before it first passed behind something
+    glm::dvec2 open{0};  // t of the last step before something, and of the one after it; 0: there is none
+  };
+  [[nodiscard]] March march(double most) const;
   // Where the way is as deep as what the picture shows at another place of it; none: that is nothing.
   [[nodiscard]] std::optional<double> as_deep_as_seen_at(double t) const;
   [[nodiscard]] End endless() const;
