@@ -115,6 +115,34 @@ class MirrorFaults {
   std::vector<const Mirror*> order_;
 };
 
+// Waves that run straight through every plane that they are on, which would show nothing.
+std::vector<Diagnostic> check_waves(const frame::Frame& frame, const std::vector<FlatMirror>& mirrors) {
+  constexpr double kLeastWithin = 1e-6;  // of a direction, the sine of its angle to the normal
+  std::map<std::pair<const Mirror*, std::size_t>, double> most_within;
+  for (const FlatMirror& flat : mirrors) {
+    for (std::size_t w = 0; w < flat.mirror->waves.size(); ++w) {
+      const glm::dvec3 direction = glm::normalize(flat.mirror->waves[w].direction_ws);
+      double& most = most_within.try_emplace({flat.mirror, w}, 0).first->second;
+      most = std::max(most, glm::length(glm::cross(direction, flat.normal_ws)));
+    }
+  }
+  std::vector<Diagnostic> faults;
+  for (const FlatMirror& flat : mirrors) {
+    for (std::size_t w = 0; w < flat.mirror->waves.size(); ++w) {
+      const auto entry = most_within.find({flat.mirror, w});
+      if (entry == most_within.end() || entry->second > kLeastWithin) continue;
+      most_within.erase(entry);  // told once
+      const glm::dvec3& n = flat.normal_ws;
+      faults.push_back(
+          {flat.mirror->file, flat.mirror->place,
+           fmt::format("waves[{}].direction runs straight through the surface of object \"{}\", whose normal "
+                       "is ({:.3g}, {:.3g}, {:.3g}): give one that lies within it",
+                       w, frame.object_names[flat.object], n.x, n.y, n.z)});
+    }
+  }
+  return faults;
+}
+
 // The part of a convex polygon where `side` is not negative: Sutherland and Hodgman 1974.
 template <class Side>
 std::vector<glm::dvec3> clip(const std::vector<glm::dvec3>& polygon, Side side) {
@@ -332,8 +360,9 @@ Result<std::vector<FlatMirror>> find_mirrors(const frame::Frame& frame) {
     const std::string fault = check_plane(frame, mirror);
     if (!fault.empty()) faults.add(mirror, fault);
   }
-  if (std::vector<Diagnostic> all = faults.list(); !all.empty())
-    return tl::unexpected(Error(Failure::bad_input, std::move(all)));
+  std::vector<Diagnostic> all = faults.list();
+  if (all.empty()) all = check_waves(frame, mirrors);
+  if (!all.empty()) return tl::unexpected(Error(Failure::bad_input, std::move(all)));
   number_planes(frame, mirrors);
   return mirrors;
 }

@@ -24,7 +24,8 @@ struct FlatMirror {
   std::vector<std::uint32_t> clusters;
 };
 
-/// In the frame's order. Error: those that are not flat (kMirrorFlatness), at the places where their Mirrors are written.
+/// In the frame's order. Errors, at the places where their Mirrors are written: those that are not flat (kMirrorFlatness), and waves
+/// that run straight through them.
 Result<std::vector<FlatMirror>> find_mirrors(const frame::Frame& frame);
 
 /// The view as the mirror has it: what it sees at a pixel, `view` sees by the mirror at the pixel as far from the opposite

@@ -82,6 +82,24 @@ TEST(InvalidMirrors, MustBeFlat) {
       "material each, and curved ones mirror the environment");
 }
 
+// The wave that many first write for a lake: upward. On the sides of a box, which it is not straight through, it may stand.
+TEST(InvalidMirrors, WavesLieWithinTheSurface) {
+  Scene scene;
+  reference::add_object(scene, "lake", reference::floor(3, 0));
+  Mirror water;
+  water.waves = {{{1, 0, 0}, 0.5, 0.01, {}, 0}, {{0, 2, 0}, 0.5, 0.01, {}, 0}};
+  scene.materials[0].mirror = std::make_shared<const Mirror>(water);
+  const Result<Renderer> renderer = Renderer::create(scene);
+  ASSERT_FALSE(renderer);
+  EXPECT_EQ(to_string(renderer.error()),
+            "waves[1].direction runs straight through the surface of object \"lake\", whose normal is (0, 1, "
+            "0): give "
+            "one that lies within it");
+  reference::add_object(scene, "side", reference::wall(1, 1, -2));
+  scene.materials[1].mirror = scene.materials[0].mirror;
+  EXPECT_TRUE(Renderer::create(scene));
+}
+
 // Each instance has a plane of its own; what is wrong with many is said once.
 TEST(InvalidMirrors, OfManyInstancesOneIsTold) {
   Scene scene;
