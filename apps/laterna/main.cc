@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,11 +58,7 @@ constexpr const char* kFooter =
     "\n'laterna COMMAND --help' tells more about a command.\n"
     "Exit codes: 0 ok, 1 a comparison failed, 2 bad usage, 3 bad input, 4 could not write.";
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, stop);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is a failed write, which is told
+int run_command(std::vector<std::string> words) {
   CLI::App app(kDescription, "laterna");
   app.footer(kFooter);
   app.require_subcommand(1);
@@ -81,7 +78,6 @@ int main(int argc, char** argv) {
         laterna::app::declare_doctor}) {
     declare(app, run);
   }
-  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   if (!words.empty() && words.front() == "help") ask_for_help(words);
   if (!words.empty() && !words.front().starts_with('-') && !is_command(app, words.front()))
     return report_unknown_command(app, words.front());
@@ -100,4 +96,17 @@ int main(int argc, char** argv) {
     return laterna::app::kCannotWrite;
   }
   return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, stop);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is a failed write, which is told
+  try {
+    return run_command({argv + std::min(argc, 1), argv + argc});
+  } catch (const std::exception& e) {  // what reached no one who knows more: memory, most likely
+    std::fprintf(stderr, "laterna: error: %s\n", e.what());
+    return laterna::app::kBadInput;
+  }
 }
