@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bake/light_map_layout.h"
+#include "laterna/bake.h"
 #include "laterna/material_lobes.h"
 #include "laterna/mirrors.h"
 #include "laterna/relief.h"
@@ -123,8 +124,9 @@ void note_what_is_lost(Scene& scene, const std::vector<bool>& is_baked, const Ba
 void note_small_scene(Scene& scene, double used, const frame::Bounds& bounds, double density) {
   constexpr double kLeastUsed = 0.05, kFine = 1024;  // luxels across
   const double across = glm::length(glm::dvec3(bounds.high) - glm::dvec3(bounds.low));
-  const double finer = kFine / across;
-  if (used >= kLeastUsed || !(finer > 2 * density)) return;
+  if (!(across > 0)) return;
+  const double finer = std::min(kFine / across, kMostLuxelDensity);
+  if (used >= kLeastUsed || finer <= 2 * density) return;
   scene.warnings.push_back(
       {{},
        "density",

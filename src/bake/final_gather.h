@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +23,11 @@ struct SentLight {
   std::span<const glm::vec3> patch_irradiance;
 };
 
-/// Every luxel sends out few rays. What its neighbours have found counts for it as well, as far as they share (light_sharing); where
-/// these are few, in corners and on small things, more rays are sent, so that `rays` of them or more stand behind each luxel; but for those whose first
-/// rays, and those of the luxels beside them, have found no light at all.
+/// Every luxel sends out few rays. What its neighbours find counts for it as well, as far as they share (light_sharing); where these are
+/// few, in corners and on small things, it sends out more, so that `rays` or more stand behind each luxel.
+///
+/// How far luxels share, and so how many rays each sends out, is found by rays of their own, whose light does not count: would a luxel
+/// that met something near by chance keep its light to itself, while those that missed it share what they have, light would be lost.
 class FinalGather {
  public:
   /// All must outlive this.
@@ -42,22 +43,33 @@ class FinalGather {
   // What a luxel's own rays have found.
   struct Found {
     glm::vec3 irradiance{0};
-    float nearness = 0;  // mean of 1 / distance, 1 / m
+    // 1 / m, of what bright luxels bring: where most light comes from what is near, it changes within a part of that distance.
+    // These are sums, which know no luck.
+    float nearness = 0;
   };
 
+  // The mean of 1 / distance, 1 / m.
+  [[nodiscard]] float probe(std::uint32_t place) const;
   [[nodiscard]] Found gather(std::uint32_t place, int rays, LuxelRays::Scratch& scratch) const;
-  [[nodiscard]] std::vector<bool> find_dark() const;
+  [[nodiscard]] std::vector<float> count_rays(const PartWork& work, const LightSharing& sharing) const;
+  // Calls use(place of another luxel, its part in what is found for this one).
+  template <class Use>
+  void for_parts(std::uint32_t place, const LightSharing& sharing, std::span<const float> all, Use use) const;
+  [[nodiscard]] int rays_at(std::uint32_t place, const LightSharing& sharing,
+                            std::span<const float> all) const;
   void find(const PartWork& work, const PartFiles& files);
+  void share(const PartWork& work, const LightSharing& sharing, std::vector<glm::vec3>& shared) const;
 
   const LuxelTree& tree_;
   const LuxelRays& look_;
   const BrightLuxels& bright_;
   const Patches& patches_;
   SentLight light_;
-  int rays_, first_rays_;
-  std::vector<Found> found_;         // by place
-  std::vector<std::uint32_t> sent_;  // rays, by place
-  std::optional<LightSharing> sharing_;
+  int rays_, probes_, fewest_rays_;
+  // By place.
+  std::vector<float> nearness_;
+  std::vector<Found> found_;
+  std::vector<std::uint32_t> sent_;  // rays
 };
 
 }  // namespace laterna::bake

@@ -45,12 +45,38 @@ PlaceShift shift_of(std::uint32_t place) {
   return {fraction_of(place / kPlastic), fraction_of(place / (kPlastic * kPlastic))};
 }
 
+namespace {
+
+// A lattice of rays, shifted.
+glm::vec3 direction_of(const Luxel& luxel, int ray, int count, const PlaceShift& shift) {
+  const LatticePoint point = lattice_point({ray, count});
+  return cosine_weighted(luxel.normal_ws, fraction_of(point.u + shift.u), fraction_of(point.v + shift.v));
+}
+
+// With no order in them at all, as nothing else is independent of shift_of(): the mixing of bits of SplitMix64 (Steele, Lea and Flood,
+// Fast splittable pseudorandom number generators, 2014).
+PlaceShift probe_shift_of(std::uint32_t place) {
+  std::uint64_t bits = (std::uint64_t{place} + 1) * 0x9E3779B97F4A7C15U;
+  bits = (bits ^ bits >> 30U) * 0xBF58476D1CE4E5B9U;
+  bits = (bits ^ bits >> 27U) * 0x94D049BB133111EBU;
+  bits ^= bits >> 31U;
+  return {static_cast<double>(bits >> 32U) / 4294967296.0,
+          static_cast<double>(bits & 0xFFFFFFFFU) / 4294967296.0};
+}
+
+}  // namespace
+
+float LuxelRays::probe(std::uint32_t place, int ray, int count) const {
+  const Luxel& luxel = tree_.luxels()[place];
+  const glm::vec3 direction = direction_of(luxel, ray, count, probe_shift_of(place));
+  const auto hit = rays_.find_nearest(luxel.position_ws, direction, nearest_met(frame_, luxel),
+                                      std::numeric_limits<float>::infinity(), luxel.triangle);
+  return hit ? hit->distance : std::numeric_limits<float>::infinity();
+}
+
 Sight LuxelRays::look(std::uint32_t place, int ray, int count, Scratch& scratch) const {
   const Luxel& luxel = tree_.luxels()[place];
-  const LatticePoint point = lattice_point({ray, count});
-  const PlaceShift shift = shift_of(place);
-  const glm::vec3 direction =
-      cosine_weighted(luxel.normal_ws, fraction_of(point.u + shift.u), fraction_of(point.v + shift.v));
+  const glm::vec3 direction = direction_of(luxel, ray, count, shift_of(place));
   const float near = nearest_met(frame_, luxel);
   const auto hit = rays_.find_nearest(luxel.position_ws, direction, near,
                                       std::numeric_limits<float>::infinity(), luxel.triangle);

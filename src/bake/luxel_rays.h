@@ -40,6 +40,9 @@ class LuxelRays {
   /// the gaps (the lattice shifted).
   [[nodiscard]] Sight look(std::uint32_t place, int ray, int count, Scratch& scratch) const;
 
+  /// How far off things are, by rays of the same kind that know nothing of look()'s: metres, infinity where there is nothing.
+  [[nodiscard]] float probe(std::uint32_t place, int ray, int count) const;
+
   /// The part of each channel that comes from one luxel to another, 0 where something opaque stands in the way.
   [[nodiscard]] glm::vec3 transmittance(std::uint32_t from, std::uint32_t to, Scratch& scratch) const;
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
@@ -367,6 +368,79 @@ TEST(Radiosity, every_luxel_of_many_has_its_form_factor) {
     expect_floor_as_calculated(ceiling, among_darkness, of_ceiling, 0.02, 0.1);
     expect_floor_as_calculated(wall, among_darkness, of_wall, 0.02, 0.2);
   }
+}
+
+// From a point of the floor to a rectangle at a height above it.
+double to_rectangle(const glm::dvec2& low, const glm::dvec2& high, double height, double x, double z) {
+  const auto corner = [&](double a, double b) { return from_below(a - x, b - z, height); };
+  return corner(high.x, high.y) - corner(low.x, high.y) - corner(high.x, low.y) + corner(low.x, low.y);
+}
+
+// Of the first n × n luxels, which are a floor, the mean of what they were found to get over that of what they get.
+double mean_share_found(const LuxelRoom& room, int n, int rays,
+                        const std::function<double(double x, double z)>& expected) {
+  const LitRoom lit(room);
+  const Interreflection solved = lit.solve(one_bounce(rays)).value();
+  EXPECT_LT(solved.patch_count, lit.room.luxels.size());
+  double found = 0, all = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n) * static_cast<std::size_t>(n); ++i) {
+    const glm::dvec3 p(lit.room.luxels[i].position_ws);
+    found += static_cast<double>(solved.irradiance[i].x);
+    all += expected(p.x, p.z);
+  }
+  return found / all;
+}
+
+// Thin strips close above a black floor in the open, no brighter than a great plane that nothing sees. Luxels whose few rays meet
+// one by chance must not be told from the others: those would share what they have missed.
+TEST(Radiosity, little_that_shines_near_by_is_not_lost) {
+  constexpr int n = 120;
+  for (const double height : {0.05, 0.02}) {
+    LuxelRoom room;
+    room.add({{0, 0, 1}, {1, 0, 0}, {0, 0, -1}, n, n});
+    for (int i = 0; i < 5; ++i)
+      room.add({{0.1F + 0.2F * static_cast<float>(i), static_cast<float>(height), 0},
+                {0.01F, 0, 0},
+                {0, 0, 1},
+                1,
+                100,
+                {},
+                glm::vec3(1)});
+    room.add({{-50, -30, -50}, {100, 0, 0}, {0, 0, 100}, 20, 20, {}, glm::vec3(1)});
+    const double share = mean_share_found(room, n, 256, [&](double x, double z) {
+      double sum = 0;
+      for (int i = 0; i < 5; ++i) sum += to_rectangle({0.1 + 0.2 * i, 0}, {0.11 + 0.2 * i, 1}, height, x, z);
+      return sum;
+    });
+    EXPECT_NEAR(share, 1, 0.01) << height;
+  }
+}
+
+// A black room with a hole in its ceiling, and a shining plane above it: most luxels' rays meet darkness.
+TEST(Radiosity, light_that_few_rays_find_is_not_lost) {
+  constexpr int n = 80;
+  const auto share_through = [&](float side, int rays) {
+    const float low = 2 - side / 2, high = 2 + side / 2;
+    LuxelRoom room;
+    room.add({{0, 0, 4}, {4, 0, 0}, {0, 0, -4}, n, n});
+    const auto add_ceiling = [&](float x0, float z0, float x1, float z1) {
+      room.add({{x0, 4, z0}, {x1 - x0, 0, 0}, {0, 0, z1 - z0}, 8, 8});
+    };
+    add_ceiling(0, 0, 4, low);
+    add_ceiling(0, high, 4, 4);
+    add_ceiling(0, low, low, high);
+    add_ceiling(high, low, 4, high);
+    room.add({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 10, 10});
+    room.add({{4, 0, 4}, {-4, 0, 0}, {0, 4, 0}, 10, 10});
+    room.add({{0, 0, 4}, {0, 0, -4}, {0, 4, 0}, 10, 10});
+    room.add({{4, 0, 0}, {0, 0, 4}, {0, 4, 0}, 10, 10});
+    room.add({{-8, 6, -8}, {20, 0, 0}, {0, 0, 20}, 60, 60, {}, glm::vec3(1)});
+    return mean_share_found(room, n, rays, [&](double x, double z) {
+      return to_rectangle({low, low}, {high, high}, 4, x, z);
+    });
+  };
+  EXPECT_NEAR(share_through(0.25F, 256), 1, 0.05);
+  EXPECT_NEAR(share_through(0.1F, 1024), 1, 0.1);
 }
 
 // Row 106. What the lamp gives off is what surfaces take up; the red wall reddens the floor before it, the green one greens it.
