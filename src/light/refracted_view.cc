@@ -16,6 +16,22 @@ struct BentRay {
   double rise;  // how many times as high above the plane one stands who looks straight along the bent ray
 };
 
+constexpr double kGrazing = 1e-3;  // cosine
+
+// Directions alone, of a ray of any length.
+BentRay bend(const RefractingPlane& plane, const glm::dvec3& ray) {
+  BentRay bent{};
+  bent.along_ws = glm::normalize(ray);
+  const double cosine = std::clamp(-glm::dot(plane.normal_ws, bent.along_ws), kGrazing, 1.0);
+  // Snell's law; beyond what can leave, the most glancing that does.
+  const glm::dvec3 across = bent.along_ws + cosine * plane.normal_ws;
+  const double sine = glm::length(across), bent_sine = std::min(sine / plane.index, 0.99);
+  const double bent_cosine = std::sqrt(1 - bent_sine * bent_sine);
+  bent.bent_ws = (sine > 0 ? across / sine * bent_sine : glm::dvec3(0)) - bent_cosine * plane.normal_ws;
+  bent.rise = sine > 1e-6 ? bent_cosine / bent_sine * sine / cosine : plane.index;
+  return bent;
+}
+
 BentRay bend(const View& view, const RefractingPlane& plane, const glm::dvec2& image) {
   const Projection& p = view.projection;
   const Pose& pose = view.pose;
@@ -23,17 +39,10 @@ BentRay bend(const View& view, const RefractingPlane& plane, const glm::dvec2& i
   const glm::dvec3 aside = pose.right_ws() * x + pose.up_ws() * y;
   const glm::dvec3 from = pose.position_ws + (p.is_orthographic ? aside : glm::dvec3(0));
   const glm::dvec3 ray = pose.forward_ws() + (p.is_orthographic ? glm::dvec3(0) : aside);
-  BentRay bent;
-  bent.along_ws = glm::normalize(ray);
-  const double cosine = std::clamp(-glm::dot(plane.normal_ws, bent.along_ws), 1e-3, 1.0);
+  BentRay bent = bend(plane, ray);
+  const double cosine = std::clamp(-glm::dot(plane.normal_ws, bent.along_ws), kGrazing, 1.0);
   bent.distance = (glm::dot(plane.normal_ws, from) - plane.offset) / (cosine * glm::length(ray));
   bent.place_ws = from + ray * bent.distance;
-  // Snell's law; beyond what can leave, the most glancing that does.
-  const glm::dvec3 across = bent.along_ws + cosine * plane.normal_ws;
-  const double sine = glm::length(across), bent_sine = std::min(sine / plane.index, 0.99);
-  const double bent_cosine = std::sqrt(1 - bent_sine * bent_sine);
-  bent.bent_ws = (sine > 0 ? across / sine * bent_sine : glm::dvec3(0)) - bent_cosine * plane.normal_ws;
-  bent.rise = sine > 1e-6 ? bent_cosine / bent_sine * sine / cosine : plane.index;
   return bent;
 }
 
@@ -68,18 +77,31 @@ RefractedView refracted_view(const View& from, int width, int height, const Refr
   pose.position_ws = eye;
   projection.far += is_orthographic ? 2 * reach : glm::length(eye - from.pose.position_ws);
 
+  constexpr int kPlacesOnSide = 8;
   constexpr double kWidest = 6;  // tangent: where parts lie nearly square to the axis
   glm::dvec2 low(1e300), high(-1e300);
   double density = 0;  // pixels that a unit of the frustum must have, of those that it has in the other view
-  for (const glm::dvec3& corner : seen.corners_ws) {
-    const glm::dvec3 way = corner - eye;
-    const double ahead = glm::dot(pose.forward_ws(), way),
-                 before = glm::dot(from.pose.forward_ws(), corner - from.pose.position_ws);
-    const double scale = is_orthographic ? 1 : 1 / std::max(ahead, glm::length(way) / kWidest);
-    const glm::dvec2 at(glm::dot(pose.right_ws(), way) * scale, glm::dot(pose.up_ws(), way) * scale);
+  const auto scale_of = [&](const glm::dvec3& way) {
+    return is_orthographic ? 1 : 1 / std::max(glm::dot(pose.forward_ws(), way), glm::length(way) / kWidest);
+  };
+  const auto hold = [&](const glm::dvec3& way) {
+    const glm::dvec2 at =
+        glm::dvec2(glm::dot(pose.right_ws(), way), glm::dot(pose.up_ws(), way)) * scale_of(way);
     low = glm::min(low, at);
     high = glm::max(high, at);
-    density = std::max(density, is_orthographic ? 1.0 : 1 / (scale * before));
+  };
+  for (const glm::dvec3& corner : seen.corners_ws) {
+    const glm::dvec3 way = corner - eye;
+    const double before = glm::dot(from.pose.forward_ws(), corner - from.pose.position_ws);
+    hold(way);
+    density = std::max(density, is_orthographic ? 1.0 : 1 / (scale_of(way) * before));
+  }
+  // Out of water rays fan out more than straight ones from the eye: what lies far off along them is held too.
+  for (std::size_t i = 0; !is_orthographic && plane.index < 1 && i < seen.corners_ws.size(); ++i) {
+    const glm::dvec3 &a = seen.corners_ws[i], &b = seen.corners_ws[(i + 1) % seen.corners_ws.size()];
+    for (int k = 0; k < kPlacesOnSide; ++k)
+      hold(bend(plane, glm::mix(a, b, static_cast<double>(k) / kPlacesOnSide) - from.pose.position_ws)
+               .bent_ws);
   }
   const glm::dvec2 centre = 0.5 * (low + high), half = 0.55 * (high - low);
   glm::dvec2 size(from.projection.right - from.projection.left, from.projection.top - from.projection.bottom);

@@ -19,7 +19,7 @@ MirrorPicture::MirrorPicture(const light::MirrorView& seen, const Mirror& mirror
   finest.width = box_.x_end - box_.x_begin;
   finest.height = box_.y_end - box_.y_begin;
   finest.pixels.resize(static_cast<std::size_t>(finest.width) * static_cast<std::size_t>(finest.height));
-  if (needs_samples()) kept_samples_.emplace(seen_.box, samples);
+  if (needs_samples() && !needs_depth()) kept_samples_.emplace(seen_.box, samples);
 }
 
 void MirrorPicture::write(int tile_x, int tile_y, const TileResult& tile) {
@@ -39,7 +39,9 @@ void MirrorPicture::write(int tile_x, int tile_y, const TileResult& tile) {
       const float nearness = needs_depth() ? 1 / tile.depth[i] : 0;
       const int column = seen_.is_refracted ? x : drawn_.width - 1 - x;
       const std::size_t pixel = row + static_cast<std::size_t>(column - box_.x_begin);
-      finest.pixels[pixel] = {tile.beauty.r[i], tile.beauty.g[i], tile.beauty.b[i], nearness};
+      const bool is_mixed = needs_samples() && needs_depth() && !are_alike(tile, i);
+      const TileColor& shown = is_mixed ? tile.samples.front() : tile.beauty;
+      finest.pixels[pixel] = {shown.r[i], shown.g[i], shown.b[i], nearness};
     }
   }
 }

@@ -42,8 +42,9 @@ class MirrorPicture {
     return mirror_->roughness > 0 || !mirror_->waves.empty() || seen_.is_refracted;
   }
 
-  /// Whether each sample is looked at by itself, as flat and smooth mirrors do: WantedLayers::samples must be set.
-  [[nodiscard]] bool needs_samples() const { return samples_ > 1 && !needs_depth(); }
+  /// Whether WantedLayers::samples must be set. Flat and smooth mirrors look at each sample by itself. Where depths are looked at a pixel
+  /// whose samples differ shows the first, whose depth is kept: their mean is the colour of nothing that lies there.
+  [[nodiscard]] bool needs_samples() const { return samples_ > 1; }
 
   /// A tile of the mirrored picture. Calls for different tiles may come from several threads at once.
   void write(int tile_x, int tile_y, const TileResult& tile);

@@ -2,9 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace laterna::shade {
+
+bool are_alike(const TileResult& tile, std::size_t pixel) {
+  const float r = tile.beauty.r[pixel], g = tile.beauty.g[pixel], b = tile.beauty.b[pixel];
+  const float most = kAlikeSamples * std::max({std::abs(r), std::abs(g), std::abs(b)});
+  for (const TileColor& sample : tile.samples) {
+    const bool is_near = std::abs(sample.r[pixel] - r) <= most && std::abs(sample.g[pixel] - g) <= most &&
+                         std::abs(sample.b[pixel] - b) <= most;
+    if (!is_near) return false;  // nor is what is no number
+  }
+  return true;
+}
 
 MirrorSamples::MirrorSamples(const light::PixelBox& box, int samples)
     : box_(box),
@@ -19,18 +29,6 @@ MirrorSamples::MirrorSamples(const light::PixelBox& box, int samples)
 std::size_t MirrorSamples::tile_number(int tile_x, int tile_y) const {
   return static_cast<std::size_t>(tile_y - top_) * static_cast<std::size_t>(tiles_x_) +
          static_cast<std::size_t>(tile_x - left_);
-}
-
-bool MirrorSamples::are_alike(const TileResult& tile, std::size_t pixel) const {
-  const float r = tile.beauty.r[pixel], g = tile.beauty.g[pixel], b = tile.beauty.b[pixel];
-  const float most = kAlikeSamples * std::max({std::abs(r), std::abs(g), std::abs(b)});
-  for (std::size_t s = 0; s < samples_; ++s) {
-    const TileColor& sample = tile.samples[s];
-    const bool is_near = std::abs(sample.r[pixel] - r) <= most && std::abs(sample.g[pixel] - g) <= most &&
-                         std::abs(sample.b[pixel] - b) <= most;
-    if (!is_near) return false;  // nor is what is no number
-  }
-  return true;
 }
 
 void MirrorSamples::write(int tile_x, int tile_y, const TileResult& tile) {

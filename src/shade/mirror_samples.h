@@ -2,6 +2,7 @@
 // serves for all of them, and 12 bytes for each need not be kept.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -14,6 +15,9 @@ namespace laterna::shade {
 /// Samples are kept where one is farther from the mean, in any channel, than this part of the mean's largest channel. What a
 /// mirror shows is off by no more.
 inline constexpr float kAlikeSamples = 1.0F / 64;
+
+/// Whether the mean of a pixel's TileResult::samples serves for all of them.
+[[nodiscard]] bool are_alike(const TileResult& tile, std::size_t pixel);
 
 class MirrorSamples {
  public:
@@ -37,7 +41,6 @@ class MirrorSamples {
   };
   static constexpr std::uint16_t kNone = 0xFFFF;
 
-  [[nodiscard]] bool are_alike(const TileResult& tile, std::size_t pixel) const;
   [[nodiscard]] std::size_t tile_number(int tile_x, int tile_y) const;
 
   light::PixelBox box_;

@@ -63,9 +63,7 @@ glm::vec2 MirrorShader::displaced(const MirrorPicture& picture, const Sight& sig
   const glm::dvec3 reflected = sight.along_ws - 2 * glm::dot(sight.along_ws, normal_ws) * normal_ws;
   // Not into the water: a ray that would meets another wave, and goes on.
   const glm::dvec3 behind = reflected - (glm::dot(reflected, n) + std::abs(glm::dot(reflected, n))) * n;
-  const PictureRay ray(picture, view_, sight.place_ws, behind, sampled_at_);
-  if (const std::optional<glm::vec2> end = ray.find_end_on_one_surface()) return *end;
-  return ray.find_end_in_sight();
+  return PictureRay(picture, view_, sight.place_ws, behind, sampled_at_).find_end_in_sight();
 }
 
 // A roughness r spreads mirrored rays about twice as far as facets are tilted, whose slopes are about r² (GGX).

@@ -9,6 +9,8 @@ namespace laterna::shade {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr float kMostLeap = 0.05F;  // of the nearer depth, of one surface from look to look
+constexpr float kContact = 2;       // pixels of the way to what stands on the mirror
 
 }  // namespace
 
@@ -67,7 +69,6 @@ std::optional<double> PictureRay::meets(double before, double after) const {
 // ends.
 std::optional<glm::vec2> PictureRay::meets_foot(glm::dvec2 open) const {
   constexpr int kHalvings = 6;
-  constexpr float kContact = 2;  // pixels
   if (open.y == 0) return std::nullopt;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (open.x + open.y);
@@ -105,16 +106,30 @@ PictureRay::End PictureRay::endless() const {
   return {glm::vec2(image / advance_ + origin_), kInfinity};
 }
 
+// On the last pixel before the foot of something some of the picture's samples see that, and the one whose depth is kept what lies behind.
+std::optional<glm::vec2> PictureRay::foot_beside() const {
+  const glm::vec2 start = at(0).place;
+  const float own = picture_.nearest(start.x, start.y).w;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const glm::vec2 beside = glm::floor(start) + glm::vec2(dx, dy) + 0.5F;
+      const float nearness = picture_.nearest(beside.x, beside.y).w;
+      const bool leaps = nearness - own > kMostLeap * nearness;
+      if (leaps && glm::length(place_as_near_as(nearness) - start) < kContact) return beside;
+    }
+  }
+  return std::nullopt;
+}
+
 // The depth is taken at the start first, then where that leads, and there again.
 std::optional<glm::vec2> PictureRay::find_end_on_one_surface() const {
-  constexpr float kMostChange = 0.05F;  // of the depth, from look to look
   glm::vec2 place = at(0).place;
   if (advance_ <= 1e-3) return place;
   float nearness = picture_.nearness(place.x, place.y);
   for (int look = 0; look < 2; ++look) {
     place = place_as_near_as(nearness);
     const float there = picture_.nearness(place.x, place.y);
-    if (std::abs(there - nearness) > kMostChange * std::max(there, nearness)) return std::nullopt;
+    if (std::abs(there - nearness) > kMostLeap * std::max(there, nearness)) return std::nullopt;
     nearness = there;
   }
   return place;
@@ -161,6 +176,10 @@ PictureRay::End PictureRay::find_end() const {
 }
 
 glm::vec2 PictureRay::find_end_in_sight() const {
+  if (picture_.needs_samples()) {
+    if (const std::optional<glm::vec2> foot = foot_beside()) return *foot;
+  }
+  if (const std::optional<glm::vec2> end = find_end_on_one_surface()) return *end;
   const double most = this->most();
   if (most <= 0) return endless().place;
   const March march = this->march(most);

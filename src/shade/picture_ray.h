@@ -29,9 +29,6 @@ class PictureRay {
   /// The place alone; a ray that meets nothing goes on without end, and one that passes behind something ends before it does, if what
   /// would be met without end is nothing that the picture knows.
   [[nodiscard]] glm::vec2 find_end_in_sight() const;
-  /// The same where one surface is all that the picture shows from where the ray starts to where it ends, found in three looks. None:
-  /// depths leap on the way.
-  [[nodiscard]] std::optional<glm::vec2> find_end_on_one_surface() const;
   /// Of the place that it comes from, metres along the axis of the picture's view.
   [[nodiscard]] double start() const { return start_; }
 
@@ -50,6 +47,10 @@ class PictureRay {
   [[nodiscard]] std::optional<double> meets(double before, double after) const;
   // The last place before the picture shows nothing, where what it shows there lies within two pixels of the way.
   [[nodiscard]] std::optional<glm::vec2> meets_foot(glm::dvec2 open) const;
+  [[nodiscard]] std::optional<glm::vec2> foot_beside() const;
+  // The end where one surface is all that the picture shows from where the ray starts to where it ends, found in three looks. None:
+  // depths leap on the way.
+  [[nodiscard]] std::optional<glm::vec2> find_end_on_one_surface() const;
   [[nodiscard]] double most() const;
   struct March {
     std::optional<double> met, last_seen;  // t; last_seen: before it first passed behind something

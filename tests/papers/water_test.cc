@@ -143,6 +143,51 @@ TEST(Water, ShowsWhatRefractedRaysMeet) {
   EXPECT_GT(different_unbent, met / 4);
 }
 
+// The same from below, against rays: they fan out as they leave the water, up to the horizon.
+TEST(Water, SeenFromBelowShowsWhatRefractedRaysMeet) {
+  const auto make = [] {
+    Scene scene = dark();
+    add_water(scene, clear_water());
+    scene.materials.back().double_sided = true;
+    Mesher walls;
+    for (const float side : {-1.0F, 1.0F}) {
+      const float x = 1.5F * side;
+      walls.quad({x, 0.05F, -2}, {x, 0.05F, 2}, {x, 1.2F, 2}, {x, 1.2F, -2});
+    }
+    add_glowing(scene, "walls", walls.primitive);
+    scene.materials.back().double_sided = true;
+    return scene;
+  };
+  constexpr int kWidth = 160, kHeight = 90;
+  for (const double yfov : {80.0, 110.0}) {
+    const View view = look({0.1, -0.4, 1}, {-1.4, 0.2, 0.3}, yfov, 16.0 / 9);
+    const LayeredImage image = render(make_renderer(make()), view, test_settings(kWidth, kHeight));
+    const OwnedFrame own = make_frame(make());
+    const trace::RayScene rays(own.frame);
+    const laterna::raster::RasterView camera(view, kWidth, kHeight);
+    int looked = 0, met = 0, different = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const glm::dvec3 ray =
+            glm::normalize(camera.direction_0 + camera.direction_x * (x + 0.5 - camera.origin_x) +
+                           camera.direction_y * (y + 0.5 - camera.origin_y));
+        glm::dvec3 bent(ray.x * kIndex, 0, ray.z * kIndex);
+        const double squared = 1 - bent.x * bent.x - bent.z * bent.z;
+        if (ray.y < 0 || squared < 0.05) continue;  // what is refracted there is little
+        bent.y = std::sqrt(squared);
+        const glm::dvec3 place = camera.eye_ws + ray * (-camera.eye_ws.y / ray.y);
+        const bool is_met = rays.is_blocked(glm::vec3(place), glm::vec3(bent), 1e-3F, 100, kNoTriangle);
+        ++looked;
+        met += is_met ? 1 : 0;
+        different += is_met != (at(image, "R", x, y) > 0.25F) ? 1 : 0;
+      }
+    }
+    EXPECT_GT(met, 300) << yfov;
+    EXPECT_GT(looked - met, 300) << yfov;
+    EXPECT_LE(different, looked / 12) << yfov;  // on outlines, and at the rim of the window
+  }
+}
+
 // Row 49, and KHR_materials_volume: color^(way / distance), the way along the refracted ray; in orthographic views too.
 TEST(Water, TakesOnItsColourWithTheWayBelow) {
   for (const double degrees : {0.0, 55.0}) {
