@@ -3,12 +3,14 @@
 
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -143,19 +145,36 @@ Result<BakedScene> bake(Scene scene, BakeSettings settings) {
   end_by_signal(signal);
 }
 
-int run_bake(Options options) {
+// What would be left aside without a word, or lost.
+std::string find_fault(const CLI::App& command, const Options& options) {
+  const bool into_emissive = options.into == "emissive";
+  for (const std::string& file : options.scene.files) {
+    std::error_code none;
+    if (std::filesystem::equivalent(file, options.output, none))
+      return fmt::format(
+          "{} is the scene itself: write to another file, as what has been baked is not baked again", file);
+  }
+  if (options.stops && !into_emissive)
+    return "--exposure belongs to --into emissive: light maps keep the light as it is";
+  if (options.bake.keep_lights && into_emissive)
+    return "--keep-lights belongs to light maps: what is baked --into emissive reflects no light";
+  if (command.count("--bounce-rays") > 0 && options.radiosity.bounces == 0)
+    return "--bounce-rays belongs to --bounces N: without it no light is reflected";
+  if (command.count("--occlusion-distance") > 0 && options.bake.occlusion_rays == 0)
+    return "--occlusion-distance belongs to --ambient-occlusion N";
+  if (options.quake.empty()) return {};
+  if (into_emissive) return "--quake shows light maps: leave --into emissive out";
+  if (options.json) return "--quake tells what it found in words: leave --json out";
+  return {};
+}
+
+int run_bake(const CLI::App& command, Options options) {
   options.bake.into = options.into == "emissive" ? BakeInto::emissive : BakeInto::light_maps;
   if (const Result<void> possible = check_scene_output(options.output); !possible)
     return report(possible.error());
-  if (options.stops && options.bake.into != BakeInto::emissive)
-    return report(bad_option("--exposure belongs to --into emissive: light maps keep the light as it is"));
-  if (options.bake.keep_lights && options.bake.into == BakeInto::emissive)
-    return report(
-        bad_option("--keep-lights belongs to light maps: what is baked --into emissive reflects no light"));
+  if (const std::string fault = find_fault(command, options); !fault.empty())
+    return report(bad_option(fault));
   if (!options.quake.empty()) {
-    if (options.bake.into == BakeInto::emissive)
-      return report(bad_option("--quake shows light maps: leave --into emissive out"));
-    if (options.json) return report(bad_option("--quake tells what it found in words: leave --json out"));
     if (const Result<void> possible = check_quake_output(options.quake); !possible)
       return report(possible.error());
   }
@@ -294,7 +313,8 @@ void declare_bake(CLI::App& app, Run& run) {
       "  laterna bake room.glb -o baked.glb --ambient-occlusion 256 --occlusion-distance 1\n"
       "  laterna bake room.glb --rig stage.json -o anywhere.glb --into emissive --density 100\n"
       "  laterna render baked.glb -o picture.png\n");
-  command->callback([options, &run] { run = [options] { return run_bake(*options); }; });
+  command->callback(
+      [command, options, &run] { run = [command, options] { return run_bake(*command, *options); }; });
 }
 
 }  // namespace laterna::app

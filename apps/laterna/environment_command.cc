@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
+#include <CLI/StringTools.hpp>
 #include <CLI/Validators.hpp>
 #include <cmath>
 #include <memory>
@@ -141,11 +142,13 @@ Result<void> check_use(const CLI::App& command, const Options& options) {
     return {};
   };
   if (options.list_charts)
-    return refuse_with({"IN", "OUT", "--from", "--from-scene", "--at", "--split-sum", "--exposure"},
+    return refuse_with({"IN", "OUT", "--chart", "--from", "--from-scene", "--rig", "--at", "--samples",
+                        "--split-sum", "--exposure"},
                        "is of no use with --list-charts, which reads and writes no picture");
   if (options.split_sum)
-    return refuse_with({"OUT", "--chart", "--size", "--from-scene", "--at", "--exposure"},
-                       "is of no use with --split-sum, which reads IN and prints a table");
+    return refuse_with(
+        {"OUT", "--chart", "--size", "--from-scene", "--rig", "--at", "--samples", "--exposure"},
+        "is of no use with --split-sum, which reads IN and prints a table");
   if (options.scene.files.empty())
     return refuse_with({"--at", "--rig", "--samples"}, "belongs to --from-scene");
   if (command.count("IN") > 0 && command.count("OUT") > 0)
@@ -162,7 +165,7 @@ int run_environment(const CLI::App& command, const Options& options) {
   if (is_of_scene && output.empty()) output = options.input;
   if (output.empty())
     return report(bad_option("expected a picture to read and one to write: laterna environment IN OUT"));
-  if (command.count("--exposure") > 0 && !output.ends_with(".png"))
+  if (command.count("--exposure") > 0 && !CLI::detail::to_lower(output).ends_with(".png"))
     return report(bad_option("--exposure belongs to .png: other pictures keep the light as it is"));
   if (Result<void> writable = check_image_output(output); !writable) return report(writable.error());
   const Result<Source> source = is_of_scene ? draw_source(options) : read_source(options);

@@ -97,6 +97,8 @@ std::string find_output_fault(const RenderOptions& options, const RenderRequest&
     return "--progressive and -o - would write several pictures to standard output";
   if (options.json && options.output == "-") return "--json and -o - would both write to standard output";
   if (std::string fault = find_film_fault(options, request.settings); !fault.empty()) return fault;
+  if (settings.noise > 0 && settings.accumulate == 1)
+    return "--noise needs --accumulate N: averaging stops at that noise, and at N pictures at the latest";
   if (request.shutter > 0 && settings.accumulate == 1)
     return "--shutter needs --accumulate N: the picture is the mean of so many instants";
   if (request.shutter > 0 && !request.shows_light())

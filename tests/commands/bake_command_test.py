@@ -66,6 +66,33 @@ class Bake(unittest.TestCase):
         self.assertEqual(refused.returncode, 2)
         self.assertIn("emissive", refused.stderr)
 
+    def test_the_scene_is_not_written_over(self):
+        scene = self.place / "room.glb"
+        scene.write_bytes((SCENES / "room.glb").read_bytes())
+        refused = run("bake", scene, "-o", self.place / "." / "room.glb")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("is the scene itself: write to another file", refused.stderr)
+        self.assertEqual(scene.read_bytes(), (SCENES / "room.glb").read_bytes())
+
+    def test_what_would_be_left_aside_is_refused(self):
+        for option, owner in (("--bounce-rays", "--bounces"), ("--occlusion-distance", "--ambient-occlusion")):
+            refused = self.bake(option, "64")
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn(f"{option} belongs to {owner}", refused.stderr)
+
+    def test_a_scene_of_no_size_is_told_no_density(self):
+        soup = self.place / "soup.gltf"
+        positions = struct.pack("<9f", *[0.0] * 9)
+        (self.place / "soup.bin").write_bytes(positions)
+        soup.write_text(json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "buffers": [{"uri": "soup.bin", "byteLength": 36}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                           "min": [0, 0, 0], "max": [0, 0, 0]}]}))
+        done = run("bake", soup, "-o", self.baked, "--no-cache")
+        self.assertNotIn("nan", done.stderr + done.stdout)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
