@@ -79,29 +79,32 @@ RefractedView refracted_view(const View& from, int width, int height, const Refr
 
   constexpr int kPlacesOnSide = 8;
   constexpr double kWidest = 6;  // tangent: where parts lie nearly square to the axis
+  constexpr double kWidestBent =
+      4;  // of rays that fan out: the wider, the coarser is what lies in the middle
   glm::dvec2 low(1e300), high(-1e300);
   double density = 0;  // pixels that a unit of the frustum must have, of those that it has in the other view
-  const auto scale_of = [&](const glm::dvec3& way) {
-    return is_orthographic ? 1 : 1 / std::max(glm::dot(pose.forward_ws(), way), glm::length(way) / kWidest);
+  const auto scale_of = [&](const glm::dvec3& way, double widest) {
+    return is_orthographic ? 1 : 1 / std::max(glm::dot(pose.forward_ws(), way), glm::length(way) / widest);
   };
-  const auto hold = [&](const glm::dvec3& way) {
+  const auto hold = [&](const glm::dvec3& way, double widest) {
     const glm::dvec2 at =
-        glm::dvec2(glm::dot(pose.right_ws(), way), glm::dot(pose.up_ws(), way)) * scale_of(way);
+        glm::dvec2(glm::dot(pose.right_ws(), way), glm::dot(pose.up_ws(), way)) * scale_of(way, widest);
     low = glm::min(low, at);
     high = glm::max(high, at);
   };
   for (const glm::dvec3& corner : seen.corners_ws) {
     const glm::dvec3 way = corner - eye;
     const double before = glm::dot(from.pose.forward_ws(), corner - from.pose.position_ws);
-    hold(way);
-    density = std::max(density, is_orthographic ? 1.0 : 1 / (scale_of(way) * before));
+    hold(way, kWidest);
+    density = std::max(density, is_orthographic ? 1.0 : 1 / (scale_of(way, kWidest) * before));
   }
   // Out of water rays fan out more than straight ones from the eye: what lies far off along them is held too.
   for (std::size_t i = 0; !is_orthographic && plane.index < 1 && i < seen.corners_ws.size(); ++i) {
     const glm::dvec3 &a = seen.corners_ws[i], &b = seen.corners_ws[(i + 1) % seen.corners_ws.size()];
     for (int k = 0; k < kPlacesOnSide; ++k)
-      hold(bend(plane, glm::mix(a, b, static_cast<double>(k) / kPlacesOnSide) - from.pose.position_ws)
-               .bent_ws);
+      hold(
+          bend(plane, glm::mix(a, b, static_cast<double>(k) / kPlacesOnSide) - from.pose.position_ws).bent_ws,
+          kWidestBent);
   }
   const glm::dvec2 centre = 0.5 * (low + high), half = 0.55 * (high - low);
   glm::dvec2 size(from.projection.right - from.projection.left, from.projection.top - from.projection.bottom);

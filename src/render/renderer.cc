@@ -201,6 +201,7 @@ namespace {
 
 std::vector<ShadowMapView> views_of(const light::PlannedLight& planned) {
   std::vector<ShadowMapView> views;
+  views.reserve(planned.shadow_views.size());
   for (const light::ShadowView& shadow : planned.shadow_views) {
     views.push_back({shadow.warp ? shadow.warp->light_view : shadow.view, shadow.width, shadow.height,
                      shadow.image_from_world()});

@@ -50,18 +50,19 @@ double PictureRay::behind(const Point& point) const {
   return nearness <= 0 ? -kInfinity : point.distance - 1 / static_cast<double>(nearness);
 }
 
-// By halving, and along the chord of what is left. Where depths leap there, the ray has passed behind an outline.
+// By halving, and along the chord of what is left. Where what the picture shows lies much nearer than the ray still, the ray has
+// passed it by.
 std::optional<double> PictureRay::meets(double before, double after) const {
   constexpr int kHalvings = 6;
-  constexpr double kMostChange = 0.02;  // of the depth
+  const double step = after - before;
   double gap_before = behind(at(before)), gap_after = behind(at(after));
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (before + after), gap = behind(at(middle));
     (gap >= 0 ? after : before) = middle;
     (gap >= 0 ? gap_after : gap_before) = gap;
   }
-  if (gap_after - gap_before > 2 * (after - before) + kMostChange * at(after).distance) return std::nullopt;
-  if (gap_after <= gap_before) return after;
+  if (gap_after > 0.1 * step) return std::nullopt;
+  if (gap_before == -kInfinity || gap_after <= gap_before) return after;
   return before + (after - before) * (-gap_before / (gap_after - gap_before));
 }
 
@@ -135,21 +136,23 @@ std::optional<glm::vec2> PictureRay::find_end_on_one_surface() const {
   return place;
 }
 
-// In steps of about two pixels, as far as that comes to no more than so many.
+// In steps of about two pixels, as far as that comes to no more than so many. The first is taken in quarters: of what stands there no
+// more than a rim may be shown.
 PictureRay::March PictureRay::march(double most) const {
-  constexpr int kMostSteps = 32;
+  constexpr int kMostSteps = 32, kQuarters = 4;
   const float way = glm::length(at(most).place - at(0).place);
   const int steps = static_cast<int>(std::clamp(std::ceil(way / 2), 2.0F, static_cast<float>(kMostSteps)));
   const double first_depth = view_.is_orthographic ? 1 : start_,
                last_depth = view_.is_orthographic ? 1 : start_ + most * advance_;
   const auto after = [&](int step) {  // so that all are of one length in the picture
-    const double share = static_cast<double>(step) / steps;
+    const double share =
+        (step < kQuarters ? step / static_cast<double>(kQuarters) : step - kQuarters + 1) / steps;
     return most * share * first_depth / (last_depth + share * (first_depth - last_depth));
   };
   bool is_ahead = true;
   March march;
   if (behind(at(0)) > -kInfinity) march.open = {0, after(1)};
-  for (int step = 1; step <= steps; ++step) {
+  for (int step = 1; step < steps + kQuarters; ++step) {
     const double before = after(step - 1), t = after(step);
     const double gap = behind(at(t));
     const bool is_behind = gap >= 0;
@@ -165,6 +168,8 @@ PictureRay::March PictureRay::march(double most) const {
 }
 
 PictureRay::End PictureRay::find_end() const {
+  // What hides the start is what stands there: no more than its foot is shown of what is before the plane (MirrorView::margin).
+  if (behind(at(0)) >= 0) return {at(0).place, 0};
   const double most = this->most();
   if (most <= 0) return endless();
   const March march = this->march(most);

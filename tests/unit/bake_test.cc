@@ -259,8 +259,8 @@ TEST(Bake, GoesOnWhereItWasStopped) {
   // Parts stay until what was baked is written. What only looks like one is not touched.
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "floor.glb.bake-0-2"));
   std::ofstream(folder.path() / "floor.glb.bake-9-9") << "somebody's notes";
-  std::ofstream(folder.path() / "floor.glb.bake-9-8");
-  std::ofstream(folder.path() / ".floor.glb.bake-mine.part");
+  std::ofstream(folder.path() / "floor.glb.bake-9-8") << "";
+  std::ofstream(folder.path() / ".floor.glb.bake-mine.part") << "";
   // Ours, of a run that was killed.
   std::filesystem::copy_file(folder.path() / "floor.glb.bake-0-2",
                              folder.path() / ".floor.glb.bake-0-9.1a2b.part");
@@ -334,7 +334,8 @@ TEST(Bake, SceneSmallerThanItsLuxelsIsTold) {
     Scene scene;
     Mesher mesher;
     for (int i = 0; i < 100; ++i) {
-      const float x = 0.03F * static_cast<float>(i % 10), z = 0.03F * static_cast<float>(i / 10);
+      const int row = i / 10;
+      const float x = 0.03F * static_cast<float>(i % 10), z = 0.03F * static_cast<float>(row);
       mesher.triangle({x, 0, z}, {x, 0, z + 0.003F}, {x + 0.02F, 0, z});
     }
     add_object(scene, "splinters", mesher.primitive);
