@@ -14,9 +14,10 @@
 namespace laterna::bake {
 
 /// Tells luxels that give off more than twice the mean from the rest, which rays find well. Sums of the bright ones are taken
-/// over a tree as lightcuts do (Walter and others, Lightcuts, 2005: what brings most is opened first, up to a number of boxes), with the form factor from a point to a disc,
-/// A cos θ cos θ' / (π d² + A) (Wallace, Elmquist and Haines, A ray tracing algorithm for progressive radiosity, 1989). That
-/// factor is good from a few widths of the luxel on. What is nearer is left to rays, which meet it often.
+/// over a tree as lightcuts do (Walter and others, Lightcuts, 2005: what brings most is opened first, up to a number of boxes), with
+/// the form factor from a point to a disc, A cos θ cos θ' / (π d² + A) (Wallace, Elmquist and Haines, A ray tracing algorithm for
+/// progressive radiosity, 1989). That factor is good from a few widths of the luxel on. What is nearer is left to rays, which meet
+/// it often.
 class BrightLuxels {
  public:
   /// `exitance`: what each place gives off. Tree and exitance must outlive this.
