@@ -8,6 +8,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
+#include <string_view>
+#include <tuple>
 
 #include "solids.h"
 
@@ -34,6 +37,16 @@ Image paint(int width, int height, const std::function<glm::vec3(glm::vec2)>& co
     }
   }
   return image;
+}
+
+/// The same of a picture that figures ask for again and again: to paint it takes longer than to draw them small. By one thread at a time.
+Image paint_once(std::string_view name, int width, int height,
+                 const std::function<glm::vec3(glm::vec2)>& colour) {
+  static std::map<std::tuple<std::string_view, int, int>, Image> painted;
+  const std::tuple key(name, width, height);
+  const auto known = painted.find(key);
+  if (known != painted.end()) return known->second;
+  return painted.emplace(key, paint(width, height, colour)).first->second;
 }
 
 /// A number in 0…1 that looks random, for whole x and y.
@@ -72,7 +85,7 @@ glm::vec3 landscape(glm::vec2 p, float aspect) {
 }  // namespace
 
 Image paint_tiles(int side) {
-  return paint(side, side, [](glm::vec2 p) {
+  return paint_once("tiles", side, side, [](glm::vec2 p) {
     const glm::vec2 tile = p * 4.0F;
     const glm::vec2 inside(fraction(tile.x), fraction(tile.y));
     const float edge = std::min({inside.x, inside.y, 1 - inside.x, 1 - inside.y});
@@ -85,7 +98,7 @@ Image paint_tiles(int side) {
 }
 
 Image paint_boards(int side) {
-  return paint(side, side, [](glm::vec2 p) {
+  return paint_once("boards", side, side, [](glm::vec2 p) {
     constexpr int kBoards = 6;
     const float board = p.x * kBoards;
     const int b = whole(board);
@@ -98,7 +111,7 @@ Image paint_boards(int side) {
 }
 
 Image paint_coat(int side) {
-  return paint(side, side, [](glm::vec2 p) {
+  return paint_once("coat", side, side, [](glm::vec2 p) {
     constexpr std::array<glm::vec3, 4> kColours = {
         {{0.86F, 0.36F, 0.22F}, {0.95F, 0.80F, 0.45F}, {0.26F, 0.52F, 0.56F}, {0.93F, 0.90F, 0.82F}}};
     const glm::vec2 q(fraction(p.x * 4) - 0.5F, fraction(p.y * 5) - 0.5F);
@@ -110,7 +123,7 @@ Image paint_coat(int side) {
 
 Image paint_lake(int width, int height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  return paint(width, height, [aspect](glm::vec2 p) {
+  return paint_once("lake", width, height, [aspect](glm::vec2 p) {
     // The lake shows the sky upside down, a little darker and stirred.
     const bool is_lake = p.y > kShore;
     glm::vec3 colour = landscape(p, aspect);
