@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -147,7 +146,7 @@ Result<BakedScene> bake(Scene scene, BakeSettings settings) {
 
 // What would be left aside without a word, or lost.
 std::string find_fault(const CLI::App& command, const Options& options) {
-  const bool into_emissive = options.into == "emissive";
+  const bool into_emissive = options.bake.into == BakeInto::emissive;
   for (const std::string& file : options.scene.files) {
     std::error_code none;
     if (std::filesystem::equivalent(file, options.output, none))

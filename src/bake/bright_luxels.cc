@@ -30,8 +30,6 @@ constexpr float kSampleRays = 64;
 
 float strongest(const glm::vec3& light) { return std::max(light.x, std::max(light.y, light.z)); }
 
-float sum_of(const glm::vec3& light) { return light.x + light.y + light.z; }
-
 // From a point to a disc of that area.
 float form_factor(float area, float cosine_at_receiver, float cosine_at_emitter, float squared_distance) {
   const float both = std::max(0.0F, cosine_at_receiver) * std::max(0.0F, cosine_at_emitter);

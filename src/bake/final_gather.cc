@@ -16,8 +16,6 @@ constexpr float kOwnWorth = 4;
 // Kept as one file.
 constexpr std::size_t kBatchesPerPart = 512;
 
-float sum_of(const glm::vec3& light) { return light.x + light.y + light.z; }
-
 }  // namespace
 
 FinalGather::FinalGather(const LuxelTree& tree, const LuxelRays& look, const BrightLuxels& bright,
@@ -106,12 +104,10 @@ void FinalGather::find(const PartWork& work, const PartFiles& files) {
       files, "lit", count, kBatchesPerPart,
       [&](std::size_t i, LuxelRays::Scratch& scratch) {
         const auto place = static_cast<std::uint32_t>(i);
-        sent_[i] = static_cast<std::uint32_t>(rays_at(place, sharing, all));
-        found_[i] = gather(place, static_cast<int>(sent_[i]), scratch);
+        found_[i] = gather(place, rays_at(place, sharing, all), scratch);
       },
       [&](std::size_t first, std::size_t last) {
-        return PartFiles::Values{std::as_writable_bytes(std::span(found_).subspan(first, last - first)),
-                                 std::as_writable_bytes(std::span(sent_).subspan(first, last - first))};
+        return PartFiles::Values{std::as_writable_bytes(std::span(found_).subspan(first, last - first))};
       });
 }
 
@@ -119,7 +115,6 @@ std::vector<glm::vec3> FinalGather::irradiance(const PartWork& work, const PartF
   const std::size_t count = tree_.luxels().size();
   nearness_.resize(count);
   found_.resize(count);
-  sent_.resize(count);
   std::vector<glm::vec3> shared(count);
   find(work, files);
   if (work.is_cancelled()) return shared;

@@ -44,7 +44,7 @@ class FinalGather {
   struct Found {
     glm::vec3 irradiance{0};
     // 1 / m, of what bright luxels bring: where most light comes from what is near, it changes within a part of that distance.
-    // These are sums, which know no luck.
+    // They are sums, and hardly know luck: it is in the whole alone that they are held against.
     float nearness = 0;
   };
 
@@ -69,7 +69,6 @@ class FinalGather {
   // By place.
   std::vector<float> nearness_;
   std::vector<Found> found_;
-  std::vector<std::uint32_t> sent_;  // rays
 };
 
 }  // namespace laterna::bake

@@ -18,4 +18,7 @@ struct Luxel {
   glm::vec3 reflectance;  ///< diffuse, per channel, in [0, 1]
 };
 
+/// All channels of light together.
+inline float sum_of(const glm::vec3& light) { return light.x + light.y + light.z; }
+
 }  // namespace laterna::bake

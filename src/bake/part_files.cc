@@ -18,7 +18,7 @@ namespace bake {
 namespace {
 
 // Changes whenever the same scene would be baked otherwise.
-constexpr std::uint64_t kVersion = 4;
+constexpr std::uint64_t kVersion = 5;
 constexpr std::array<char, 8> kMagic = {'L', 'A', 'T', 'B', 'A', 'K', 'E', '1'};
 constexpr std::string_view kInfix = ".bake-";
 // What write_file() names a file that is not whole yet.

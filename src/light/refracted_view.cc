@@ -11,24 +11,23 @@ namespace {
 // A ray from a view, and what is left of it behind the plane.
 struct BentRay {
   glm::dvec3 along_ws, bent_ws;  // unit
+  double cosine;                 // of the ray to the plane's normal, 0.001 or more
   glm::dvec3 place_ws;           // on the plane
   double distance;               // of the place, along the view's axis
   double rise;  // how many times as high above the plane one stands who looks straight along the bent ray
 };
 
-constexpr double kGrazing = 1e-3;  // cosine
-
 // Directions alone, of a ray of any length.
 BentRay bend(const RefractingPlane& plane, const glm::dvec3& ray) {
   BentRay bent{};
   bent.along_ws = glm::normalize(ray);
-  const double cosine = std::clamp(-glm::dot(plane.normal_ws, bent.along_ws), kGrazing, 1.0);
+  bent.cosine = std::clamp(-glm::dot(plane.normal_ws, bent.along_ws), 1e-3, 1.0);
   // Snell's law; beyond what can leave, the most glancing that does.
-  const glm::dvec3 across = bent.along_ws + cosine * plane.normal_ws;
+  const glm::dvec3 across = bent.along_ws + bent.cosine * plane.normal_ws;
   const double sine = glm::length(across), bent_sine = std::min(sine / plane.index, 0.99);
   const double bent_cosine = std::sqrt(1 - bent_sine * bent_sine);
   bent.bent_ws = (sine > 0 ? across / sine * bent_sine : glm::dvec3(0)) - bent_cosine * plane.normal_ws;
-  bent.rise = sine > 1e-6 ? bent_cosine / bent_sine * sine / cosine : plane.index;
+  bent.rise = sine > 1e-6 ? bent_cosine / bent_sine * sine / bent.cosine : plane.index;
   return bent;
 }
 
@@ -40,8 +39,7 @@ BentRay bend(const View& view, const RefractingPlane& plane, const glm::dvec2& i
   const glm::dvec3 from = pose.position_ws + (p.is_orthographic ? aside : glm::dvec3(0));
   const glm::dvec3 ray = pose.forward_ws() + (p.is_orthographic ? glm::dvec3(0) : aside);
   BentRay bent = bend(plane, ray);
-  const double cosine = std::clamp(-glm::dot(plane.normal_ws, bent.along_ws), kGrazing, 1.0);
-  bent.distance = (glm::dot(plane.normal_ws, from) - plane.offset) / (cosine * glm::length(ray));
+  bent.distance = (glm::dot(plane.normal_ws, from) - plane.offset) / (bent.cosine * glm::length(ray));
   bent.place_ws = from + ray * bent.distance;
   return bent;
 }

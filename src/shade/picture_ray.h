@@ -26,8 +26,8 @@ class PictureRay {
   /// passes behind something, where the picture does not look, ends as far on this side of where it did so: what is there goes on,
   /// turned over.
   [[nodiscard]] End find_end() const;
-  /// The place alone; a ray that meets nothing goes on without end, and one that passes behind something ends before it does, if what
-  /// would be met without end is nothing that the picture knows.
+  /// The place alone. A ray that meets nothing goes on without end, and one that leaves the foot of what stands on the mirror ends
+  /// there. One that passes behind something ends before it does, if what hides it hides its end without end too.
   [[nodiscard]] glm::vec2 find_end_in_sight() const;
   /// Of the place that it comes from, metres along the axis of the picture's view.
   [[nodiscard]] double start() const { return start_; }
@@ -47,6 +47,7 @@ class PictureRay {
   [[nodiscard]] std::optional<double> meets(double before, double after) const;
   // The last place before the picture shows nothing, where what it shows there lies within two pixels of the way.
   [[nodiscard]] std::optional<glm::vec2> meets_foot(glm::dvec2 open) const;
+  // Likewise, where the start itself shows what lies behind: the middle of the pixel beside it that shows the foot.
   [[nodiscard]] std::optional<glm::vec2> foot_beside() const;
   // The end where one surface is all that the picture shows from where the ray starts to where it ends, found in three looks. None:
   // depths leap on the way.

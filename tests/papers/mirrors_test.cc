@@ -339,7 +339,8 @@ TEST(Mirrors, WavesLeaveNoGapAtContacts) {
   for (const double aside : {0.3, -0.6, -0.9}) {
     const View view = look({aside, 0, 0}, {-0.9, 0, -3}, 30, 2.5);
     const int contact = static_cast<int>(pixel_of(view, {-1, 0, -3}, 401, 160).x);
-    for (const auto& [samples, accumulate] : {std::pair(1, 1), std::pair(1, 8), std::pair(4, 1), std::pair(16, 1)}) {
+    for (const auto& [samples, accumulate] :
+         {std::pair(1, 1), std::pair(1, 8), std::pair(4, 1), std::pair(16, 1)}) {
       RenderSettings settings = test_settings(401, 160);
       settings.samples = samples;
       settings.accumulate = accumulate;

@@ -39,7 +39,8 @@ Image paint(int width, int height, const std::function<glm::vec3(glm::vec2)>& co
   return image;
 }
 
-/// The same of a picture that figures ask for again and again: to paint it takes longer than to draw them small. By one thread at a time.
+/// The same of a picture that figures ask for again and again: to paint it takes longer than to draw them small. By one
+/// thread at a time.
 Image paint_once(std::string_view name, int width, int height,
                  const std::function<glm::vec3(glm::vec2)>& colour) {
   static std::map<std::tuple<std::string_view, int, int>, Image> painted;
