@@ -24,7 +24,7 @@ std::array<glm::dvec2, 3> corners_on(const frame::Frame& frame, TriangleId id, g
   std::array<glm::dvec2, 3> corners{};
   for (unsigned k = 0; k < 3; ++k) {
     const std::size_t v = first + (frame.corners[id] >> (8 * k) & 255U);
-    corners[k] = glm::dvec2(frame.uv_u[1][v], frame.uv_v[1][v]) * glm::dvec2(size);
+    corners[k] = glm::dvec2(frame.uvs[1][v]) * glm::dvec2(size);
   }
   return corners;
 }
@@ -43,7 +43,7 @@ class Patch {
     if (first == frame::kNoStream) return;
     for (unsigned k = 0; k < 3; ++k) {
       const std::size_t v = first + (frame.corners[id] >> (8 * k) & 255U);
-      normals_[k] = {frame.normal_x_ws[v], frame.normal_y_ws[v], frame.normal_z_ws[v]};
+      normals_[k] = frame.normals_ws[v];
     }
   }
 

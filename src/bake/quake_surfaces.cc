@@ -73,7 +73,7 @@ std::array<glm::dvec2, 3> luxels_of(const frame::Frame& frame, TriangleId id, co
   std::array<glm::dvec2, 3> corners{};
   for (unsigned k = 0; k < 3; ++k) {
     const std::size_t v = first + (frame.corners[id] >> (8 * k) & 255U);
-    corners[k] = glm::dvec2(frame.uv_u[1][v], frame.uv_v[1][v]) * glm::dvec2(light.width, light.height);
+    corners[k] = glm::dvec2(frame.uvs[1][v]) * glm::dvec2(light.width, light.height);
   }
   return corners;
 }

@@ -40,9 +40,10 @@ class SeamFinder {
 
   void add(TriangleId id) {
     const auto source = static_cast<std::size_t>(neighbours_.sources[cluster_of(id)]) / 2;
-    const std::size_t first = 3 * (source << kTriangleBits | (id & (kTrianglesPerCluster - 1)));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t step = neighbours_.meshes->steps[first + k];
+    const glm::ivec3& steps =
+        neighbours_.meshes->steps[source << kTriangleBits | (id & (kTrianglesPerCluster - 1))];
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t step = steps[k];
       // Each pair once; where more than two share an edge, the last of the ring meets the first again.
       if (step > 0) add(id, static_cast<TriangleId>(static_cast<std::int64_t>(id) + step));
     }
@@ -71,10 +72,10 @@ class SeamFinder {
     const frame::ClusterStreams& streams = frame_.streams[cluster_of(id)];
     const std::uint32_t local = frame_.corners[id] >> (8 * corner) & 255U;
     const std::size_t uv = streams.uv[1] + local;
-    EdgeEnd end = {glm::dvec2(frame_.uv_u[1][uv], frame_.uv_v[1][uv]) * glm::dvec2(size_), {}};
+    EdgeEnd end = {glm::dvec2(frame_.uvs[1][uv]) * glm::dvec2(size_), {}};
     if (streams.normal != frame::kNoStream) {
       const std::size_t n = streams.normal + local;
-      end.normal_ws = {frame_.normal_x_ws[n], frame_.normal_y_ws[n], frame_.normal_z_ws[n]};
+      end.normal_ws = frame_.normals_ws[n];
     } else {
       end.normal_ws = normal_of(id);
     }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 
 namespace laterna {
@@ -53,9 +54,7 @@ inline bool is_blended_caster(const Cluster& cluster) {
 
 /// A view of arrays that a Frame owns.
 struct TriangleClusters {
-  const float* x_ws = nullptr;  // positions, one entry per vertex, readable 16 entries beyond the last
-  const float* y_ws = nullptr;
-  const float* z_ws = nullptr;
+  const glm::vec3* positions_ws = nullptr;  // one per vertex, readable 16 entries beyond the last
   /// At [id]: three local vertex indices, a | b << 8 | c << 16, counter-clockwise seen from the front.
   const std::uint32_t* corners = nullptr;
   std::span<const Cluster> clusters;

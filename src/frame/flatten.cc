@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <memory>
+#include <type_traits>
 
 #include "base/elementary.h"
 #include "frame/surface_lobes.h"
@@ -123,17 +124,16 @@ Layout lay_out(std::vector<PlacedPart>& placed) {
 void size_arrays(const Layout& all, Frame& frame) {
   // Kernels load whole vectors, and lanes without a stream read its first cluster's worth.
   constexpr std::size_t kReadable = kVerticesPerCluster + 16;
-  const auto size = [](std::initializer_list<AlignedVector<float>*> arrays, std::size_t count) {
-    for (AlignedVector<float>* array : arrays) {
-      array->resize(count + kReadable);
-      std::fill(array->end() - kReadable, array->end(), 0.0F);
-    }
+  const auto size = [](auto& values, std::size_t count) {
+    using Value = typename std::remove_reference_t<decltype(values)>::value_type;
+    values.resize(count + kReadable);
+    std::fill(values.end() - kReadable, values.end(), Value(0));
   };
-  size({&frame.x_ws, &frame.y_ws, &frame.z_ws}, all.vertices);
-  size({&frame.normal_x_ws, &frame.normal_y_ws, &frame.normal_z_ws}, all.normals);
-  for (std::size_t set = 0; set < 2; ++set) size({&frame.uv_u[set], &frame.uv_v[set]}, all.uvs[set]);
-  size({&frame.color_r, &frame.color_g, &frame.color_b, &frame.color_a}, all.colors);
-  size({&frame.tangent_x_ws, &frame.tangent_y_ws, &frame.tangent_z_ws, &frame.tangent_sign}, all.tangents);
+  size(frame.positions_ws, all.vertices);
+  size(frame.normals_ws, all.normals);
+  for (std::size_t set = 0; set < 2; ++set) size(frame.uvs[set], all.uvs[set]);
+  size(frame.colors, all.colors);
+  size(frame.tangents_ws, all.tangents);
   frame.clusters.resize(all.clusters);
   frame.streams.resize(all.clusters);
   frame.corners.resize(all.clusters * kTrianglesPerCluster);
@@ -209,17 +209,13 @@ class PartWriter {
     const bool has_tangents = placed_.streams.tangent != kNoStream;
     for (std::size_t i = first_vertex_; i < end_vertex_; ++i) {
       poser.select(source[i]);
-      put(frame_.x_ws, frame_.y_ws, frame_.z_ws, placed_.first_vertex + i, poser.position_ws());
-      if (has_normals) {
-        put(frame_.normal_x_ws, frame_.normal_y_ws, frame_.normal_z_ws, placed_.streams.normal + i,
-            poser.normal_ws());
-      }
+      frame_.positions_ws[placed_.first_vertex + i] = glm::vec3(poser.position_ws());
+      if (has_normals) frame_.normals_ws[placed_.streams.normal + i] = glm::vec3(poser.normal_ws());
       if (!has_tangents) continue;
-      const std::size_t at = placed_.streams.tangent + i;
-      put(frame_.tangent_x_ws, frame_.tangent_y_ws, frame_.tangent_z_ws, at, poser.tangent_ws());
       // The bitangent is sign · cross(normal, tangent); a mirrored instance turns the cross product round.
       const float sign = primitive.tangents[source[i]].w;
-      frame_.tangent_sign[at] = is_mirrored_ ? -sign : sign;
+      frame_.tangents_ws[placed_.streams.tangent + i] =
+          glm::vec4(glm::vec3(poser.tangent_ws()), is_mirrored_ ? -sign : sign);
     }
   }
 
@@ -228,20 +224,12 @@ class PartWriter {
     const std::vector<std::uint32_t>& source = placed_.clustered->source_vertices;
     for (std::size_t set = 0; set < 2; ++set) {
       if (placed_.streams.uv[set] == kNoStream) continue;
-      for (std::size_t i = first_vertex_; i < end_vertex_; ++i) {
-        frame_.uv_u[set][placed_.streams.uv[set] + i] = primitive.uv[set][source[i]].x;
-        frame_.uv_v[set][placed_.streams.uv[set] + i] = primitive.uv[set][source[i]].y;
-      }
+      for (std::size_t i = first_vertex_; i < end_vertex_; ++i)
+        frame_.uvs[set][placed_.streams.uv[set] + i] = primitive.uv[set][source[i]];
     }
-    if (placed_.streams.color != kNoStream) write_colors(source);
-  }
-
-  void write_colors(const std::vector<std::uint32_t>& source) {
-    for (std::size_t i = first_vertex_; i < end_vertex_; ++i) {
-      const glm::vec4& c = placed_.primitive->colors[source[i]];
-      const std::size_t at = placed_.streams.color + i;
-      frame_.color_r[at] = c.r, frame_.color_g[at] = c.g, frame_.color_b[at] = c.b, frame_.color_a[at] = c.a;
-    }
+    if (placed_.streams.color == kNoStream) return;
+    for (std::size_t i = first_vertex_; i < end_vertex_; ++i)
+      frame_.colors[placed_.streams.color + i] = primitive.colors[source[i]];
   }
 
   void write_clusters() {
@@ -276,20 +264,13 @@ class PartWriter {
   }
 
   void find_bounds(Cluster& cluster) const {
-    const AlignedVector<float>* axes[3] = {&frame_.x_ws, &frame_.y_ws, &frame_.z_ws};
-    for (int k = 0; k < 3; ++k) {
-      const float* first = axes[k]->data() + cluster.first_vertex;
-      const auto [low, high] = std::minmax_element(first, first + cluster.vertex_count);
-      cluster.low_ws[k] = *low;
-      cluster.high_ws[k] = *high;
+    const glm::vec3* first = frame_.positions_ws.data() + cluster.first_vertex;
+    glm::vec3 low = *first, high = *first;
+    for (std::size_t i = 1; i < cluster.vertex_count; ++i) {
+      low = glm::min(low, first[i]);
+      high = glm::max(high, first[i]);
     }
-  }
-
-  static void put(AlignedVector<float>& x, AlignedVector<float>& y, AlignedVector<float>& z, std::size_t i,
-                  const glm::dvec3& v) {
-    x[i] = static_cast<float>(v.x);
-    y[i] = static_cast<float>(v.y);
-    z[i] = static_cast<float>(v.z);
+    for (int k = 0; k < 3; ++k) cluster.low_ws[k] = low[k], cluster.high_ws[k] = high[k];
   }
 
   const PlacedPart& placed_;

@@ -1,9 +1,11 @@
-// One instant of a scene, flat: every instance in world space, as structure of arrays. What every later stage reads.
+// One instant of a scene, flat: every instance in world space, an array for each thing that vertices have. What every later stage reads.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -154,22 +156,19 @@ class Frame {
   /// Puts lights and cameras where the scene has them now; the rest of the frame stays.
   void place_lights_and_cameras(const Scene& scene);
 
-  [[nodiscard]] TriangleClusters geometry() const {
-    return {x_ws.data(), y_ws.data(), z_ws.data(), corners.data(), clusters};
-  }
+  [[nodiscard]] TriangleClusters geometry() const { return {positions_ws.data(), corners.data(), clusters}; }
   [[nodiscard]] std::size_t triangle_count() const;
   /// Corner 0, 1 or 2 of a triangle.
   [[nodiscard]] glm::vec3 corner_ws(TriangleId id, unsigned corner) const {
-    const std::size_t v = clusters[cluster_of(id)].first_vertex + (corners[id] >> (8 * corner) & 255U);
-    return {x_ws[v], y_ws[v], z_ws[v]};
+    return positions_ws[clusters[cluster_of(id)].first_vertex + (corners[id] >> (8 * corner) & 255U)];
   }
 
-  // Vertices, one entry per cluster vertex, readable 16 entries beyond the last.
-  AlignedVector<float> x_ws, y_ws, z_ws;
-  AlignedVector<float> normal_x_ws, normal_y_ws, normal_z_ws;
-  AlignedVector<float> uv_u[2], uv_v[2];
-  AlignedVector<float> color_r, color_g, color_b, color_a;
-  AlignedVector<float> tangent_x_ws, tangent_y_ws, tangent_z_ws, tangent_sign;
+  // Vertices, one entry per cluster vertex, readable 16 entries beyond the last. Kernels read them one by one, at corners of
+  // triangles all over: what belongs together lies together.
+  AlignedVector<glm::vec3> positions_ws, normals_ws;
+  AlignedVector<glm::vec2> uvs[2];
+  AlignedVector<glm::vec4> colors;       // linear r, g, b, alpha
+  AlignedVector<glm::vec4> tangents_ws;  // w: the bitangent is w · cross(normal, tangent)
 
   AlignedVector<std::uint32_t> corners;  // kTrianglesPerCluster per cluster
   std::vector<Cluster> clusters;

@@ -60,8 +60,8 @@ HWY_INLINE ReliefCoordinates FindReliefCoordinates(const Frame& frame, const Rel
   const auto stream = corners.StreamAt(kUvField + set);
   CornerValues u = {zero, zero, zero}, v = u;
   if (!stream.IsMissing()) {
-    u = corners.At(frame.uv_u[set].data(), stream.first);
-    v = corners.At(frame.uv_v[set].data(), stream.first);
+    const CornerPairs uv = corners.At(frame.uvs[set].data(), stream.first);
+    u = uv.x, v = uv.y;
   }
   const std::array<float, 6>& m = relief.uv_from_mesh_uv;
   const auto row = [&](std::size_t r, const ReliefField::Axis& axis) HWY_ATTR {

@@ -29,7 +29,7 @@ HWY_INLINE FloatVector AlphaOf(const Frame& frame, const Surface& surface,
   if (binding.chain != nullptr) alpha = alpha * look_up(FindFootprint(frame, binding, corners, weights));
   const auto stream = corners.StreamAt(kColorField);
   if (stream.IsMissing()) return alpha;
-  const auto vertex_alpha = Interpolate(corners.At(frame.color_a.data(), stream.first), weights);
+  const auto vertex_alpha = Interpolate(corners.At(frame.colors.data(), stream.first).w, weights);
   return alpha * stream.OrElse(vertex_alpha, Splat(1.0F));
 }
 

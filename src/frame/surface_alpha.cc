@@ -55,24 +55,23 @@ float alpha_at(const Frame& frame, TriangleId id, float b, float c) {
   const Surface& surface = frame.surfaces[frame.clusters[cluster].material];
   const ClusterStreams& streams = frame.streams[cluster];
   const std::uint32_t packed = frame.corners[id];
-  const auto interpolate = [&](const AlignedVector<float>& values, std::uint32_t first) {
-    const float at_a = values[first + (packed & 255U)];
+  const auto interpolate = [&](const auto& values, std::uint32_t first) {
+    const auto at_a = values[first + (packed & 255U)];
     return at_a + ((values[first + (packed >> 8U & 255U)] - at_a) * b +
                    (values[first + (packed >> 16U & 255U)] - at_a) * c);
   };
   const float factor = surface.base_color[3];
-  const float vertex_alpha = streams.color == kNoStream ? 1 : interpolate(frame.color_a, streams.color);
+  const float vertex_alpha = streams.color == kNoStream ? 1 : interpolate(frame.colors, streams.color).a;
   const TextureBinding& binding = surface.base_color_texture;
   if (binding.chain == nullptr) return factor * vertex_alpha;
   const auto set = static_cast<std::size_t>(binding.uv_set);
   float u = 0;
   float v = 0;
   if (streams.uv[set] != kNoStream) {
-    const float mesh_u = interpolate(frame.uv_u[set], streams.uv[set]);
-    const float mesh_v = interpolate(frame.uv_v[set], streams.uv[set]);
+    const glm::vec2 mesh_uv = interpolate(frame.uvs[set], streams.uv[set]);
     const std::array<float, 6>& m = binding.uv_from_mesh_uv;
-    u = m[0] * mesh_u + m[1] * mesh_v + m[2];
-    v = m[3] * mesh_u + m[4] * mesh_v + m[5];
+    u = m[0] * mesh_uv.x + m[1] * mesh_uv.y + m[2];
+    v = m[3] * mesh_uv.x + m[4] * mesh_uv.y + m[5];
   }
   return factor * texture_alpha(binding, u, v) * vertex_alpha;
 }

@@ -26,12 +26,13 @@ HWY_INLINE image::HWY_NAMESPACE::Footprint FindFootprint(const Frame& frame, con
   const auto stream = corners.StreamAt(kUvField + set);
   const auto zero = Splat(0.0F);
   if (stream.IsMissing()) return {zero, zero, zero, zero, zero, zero};
-  const auto read = [&](const AlignedVector<float>& values) HWY_ATTR {
-    const Interpolated i = InterpolateWithSlope(corners.At(values.data(), stream.first), weights);
+  const auto interpolate = [&](const CornerValues& values) HWY_ATTR {
+    const Interpolated i = InterpolateWithSlope(values, weights);
     return Interpolated{stream.OrElse(i.value, zero), stream.OrElse(i.d_dx, zero),
                         stream.OrElse(i.d_dy, zero)};
   };
-  const Interpolated u = read(frame.uv_u[set]), v = read(frame.uv_v[set]);
+  const CornerPairs uv = corners.At(frame.uvs[set].data(), stream.first);
+  const Interpolated u = interpolate(uv.x), v = interpolate(uv.y);
   const std::array<float, 6>& m = binding.uv_from_mesh_uv;
   const auto row = [&](std::size_t r, FloatVector a, FloatVector b)
                        HWY_ATTR { return Splat(m[r]) * a + Splat(m[r + 1]) * b; };

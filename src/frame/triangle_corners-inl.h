@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "base/record_gather-inl.h"
 #include "base/vectors-inl.h"
 #include "frame/frame.h"
 
@@ -23,8 +24,16 @@ using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 struct CornerValues {
   FloatVector a, b, c;
 };
+struct CornerPairs {
+  CornerValues x, y;
+};
 struct CornerVectors {
   Vector3 a, b, c;
+};
+// Of four components: the fourth apart.
+struct CornerVectorsAndValues {
+  CornerVectors xyz;
+  CornerValues w;
 };
 
 // Weights of corners b and c (a has the rest), and their change from one pixel to the next.
@@ -66,9 +75,7 @@ class TriangleCorners {
   }
   TriangleCorners(const Frame& frame, IntVector ids) requires(!kUniform) : frame_(frame) { Gather(ids); }
 
-  HWY_INLINE CornerVectors Positions() const {
-    return At3(frame_.x_ws.data(), frame_.y_ws.data(), frame_.z_ws.data(), First());
-  }
+  HWY_INLINE CornerVectors Positions() const { return At(frame_.positions_ws.data(), First()); }
 
   // Index of each lane's cluster.
   HWY_INLINE IntVector Clusters() const requires(!kUniform) { return clusters_; }
@@ -111,24 +118,34 @@ class TriangleCorners {
     }
   }
 
+  // Values of a stream whose first vertex is `first`.
   template <class First>
-  HWY_INLINE CornerValues At(const float* values, const First& first) const {
-    if constexpr (kUniform) {
-      return {Splat(values[first + local_[0]]), Splat(values[first + local_[1]]),
-              Splat(values[first + local_[2]])};
-    } else {
-      const FloatTag d;
-      return {hn::GatherIndex(d, values, first + locals_[0]), hn::GatherIndex(d, values, first + locals_[1]),
-              hn::GatherIndex(d, values, first + locals_[2])};
-    }
+  HWY_INLINE CornerPairs At(const glm::vec2* values, const First& first) const {
+    const auto a = At(values, first, 0), b = At(values, first, 1), c = At(values, first, 2);
+    return {{a.x, b.x, c.x}, {a.y, b.y, c.y}};
   }
   template <class First>
-  HWY_INLINE CornerVectors At3(const float* xs, const float* ys, const float* zs, const First& first) const {
-    const CornerValues x = At(xs, first), y = At(ys, first), z = At(zs, first);
-    return {{x.a, y.a, z.a}, {x.b, y.b, z.b}, {x.c, y.c, z.c}};
+  HWY_INLINE CornerVectors At(const glm::vec3* values, const First& first) const {
+    const auto a = At(values, first, 0), b = At(values, first, 1), c = At(values, first, 2);
+    return {{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}};
+  }
+  template <class First>
+  HWY_INLINE CornerVectorsAndValues At(const glm::vec4* values, const First& first) const {
+    const auto a = At(values, first, 0), b = At(values, first, 1), c = At(values, first, 2);
+    return {{{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}}, {a.w, b.w, c.w}};
   }
 
  private:
+  // Of one corner; what values have fewer than four components of is of no use.
+  template <class Value, class First>
+  HWY_INLINE Components<Value> At(const Value* values, const First& first, std::size_t corner) const {
+    if constexpr (kUniform) {
+      const float* value = &values[first + local_[corner]].x;
+      return {Splat(value[0]), Splat(value[1]), Splat(value[2]), Splat(value[3])};
+    } else {
+      return GatherRecords(values, first + locals_[corner]);
+    }
+  }
   HWY_INLINE auto First() const {
     if constexpr (kUniform) {
       return first_;

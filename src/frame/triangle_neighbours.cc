@@ -68,16 +68,16 @@ struct ListedEdge {
 };
 
 // Edges between the same two ends form a ring.
-void link(std::span<const ListedEdge> ring, std::int32_t* steps) {
+void link(std::span<const ListedEdge> ring, glm::ivec3* steps) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const std::uint32_t from = ring[i].edge;
     const std::uint32_t to = ring[i + 1 < ring.size() ? i + 1 : 0].edge;
-    steps[3 * std::size_t{from >> 2U} + (from & 3U)] = static_cast<std::int32_t>((to >> 2U) - (from >> 2U));
+    steps[from >> 2U][static_cast<int>(from & 3U)] = static_cast<std::int32_t>((to >> 2U) - (from >> 2U));
   }
 }
 
 void write_steps(const ClusteredPrimitive& clustered, std::span<const glm::vec3> positions,
-                 std::int32_t* steps) {
+                 glm::ivec3* steps) {
   const std::vector<std::uint32_t> joined = join_positions(positions);
   const auto for_each_edge = [&](auto visit) {
     for_each_triangle(clustered, joined, [&](std::uint32_t id, const Corners& corners) {
@@ -125,9 +125,10 @@ MeshNeighbours find_mesh_neighbours(const Scene& scene, const ClusteredMeshes& m
   std::size_t clusters = 0;
   const std::vector<std::vector<std::size_t>> first = first_clusters(meshes, clusters);
   MeshNeighbours neighbours;
-  constexpr std::size_t kStepsPerCluster = 3 * kTrianglesPerCluster;
-  if (clusters > std::numeric_limits<std::int32_t>::max() / kStepsPerCluster) return neighbours;
-  neighbours.steps.resize(clusters * kStepsPerCluster);
+  // Kernels find triangles by 32-bit indices.
+  if (clusters > std::numeric_limits<std::int32_t>::max() / kTrianglesPerCluster) return neighbours;
+  neighbours.steps.resize(clusters * kTrianglesPerCluster + 1);
+  neighbours.steps.back() = glm::ivec3(0);
   struct Part {
     std::size_t mesh, part;
   };
@@ -137,8 +138,8 @@ MeshNeighbours find_mesh_neighbours(const Scene& scene, const ClusteredMeshes& m
   }
   pool.for_each(parts.size(), [&](std::size_t i, int) {
     const auto [m, p] = parts[i];
-    std::int32_t* steps = neighbours.steps.data() + first[m][p] * kStepsPerCluster;
-    std::fill_n(steps, meshes[m][p].clusters.size() * kStepsPerCluster, 0);
+    glm::ivec3* steps = neighbours.steps.data() + first[m][p] * kTrianglesPerCluster;
+    std::fill_n(steps, meshes[m][p].clusters.size() * kTrianglesPerCluster, glm::ivec3(0));
     write_steps(meshes[m][p], scene.meshes[m].primitives[p].positions, steps);
   });
   return neighbours;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <memory>
 
 #include "base/aligned_vector.h"
@@ -18,9 +19,10 @@ namespace laterna::frame {
 /// same positions, whatever normals and texture coordinates they carry: surfaces are mostly cut open where those
 /// change. Neighbours are of one primitive.
 struct MeshNeighbours {
-  /// At [3 (cluster · 128 + triangle) + edge], clusters counted over all meshes' primitives in order: the neighbour's
+  /// At [cluster · 128 + triangle][edge], clusters counted over all meshes' primitives in order: the neighbour's
   /// TriangleId less the triangle's own; 0: none. Where more than two triangles share an edge, a ring through them.
-  AlignedVector<std::int32_t> steps;
+  /// One more is there than triangles, for kernels that read four numbers at once.
+  AlignedVector<glm::ivec3> steps;
 };
 
 /// Depends on the scene alone. Empty where indices would not fit 32 bits.

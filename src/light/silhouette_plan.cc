@@ -38,7 +38,7 @@ bool takes_part(const Cluster& cluster) {
 double square_to_farthest_vertex(const Frame& frame, const Cluster& cluster, const glm::dvec3& centre) {
   double farthest = 0;
   for (std::size_t v = cluster.first_vertex; v < cluster.first_vertex + cluster.vertex_count; ++v) {
-    const glm::dvec3 d = glm::dvec3(frame.x_ws[v], frame.y_ws[v], frame.z_ws[v]) - centre;
+    const glm::dvec3 d = glm::dvec3(frame.positions_ws[v]) - centre;
     farthest = std::max(farthest, glm::dot(d, d));
   }
   return farthest;

@@ -45,9 +45,11 @@ HWY_INLINE void TransformVertices(const SetupView& setup, const TriangleClusters
   for (std::size_t i = 0; i < cluster.vertex_count; i += kLanes) {
     const std::size_t v = cluster.first_vertex + i;
     // Relative to the eye first: the difference is exact for what is near, however far the scene is from its origin.
-    const auto x = hn::LoadU(d, geometry.x_ws + v) - hn::Set(d, setup.eye_ws[0]);
-    const auto y = hn::LoadU(d, geometry.y_ws + v) - hn::Set(d, setup.eye_ws[1]);
-    const auto z = hn::LoadU(d, geometry.z_ws + v) - hn::Set(d, setup.eye_ws[2]);
+    FloatVector x, y, z;
+    hn::LoadInterleaved3(d, &geometry.positions_ws[v].x, x, y, z);
+    x = x - hn::Set(d, setup.eye_ws[0]);
+    y = y - hn::Set(d, setup.eye_ws[1]);
+    z = z - hn::Set(d, setup.eye_ws[2]);
     const auto X = Dot(d, setup.x_row, x, y, z) + hn::Set(d, setup.x_add);
     const auto Y = Dot(d, setup.y_row, x, y, z) + hn::Set(d, setup.y_add);
     const auto W = Dot(d, setup.w_row, x, y, z) + hn::Set(d, setup.w_add);
@@ -180,10 +182,9 @@ WideCorners LoadWideCorners(const SetupTask& task, TriangleId id) {
   for (std::uint32_t i = 0; i < 3; ++i) {
     corners.local[i] = packed >> (8 * i) & 255U;
     const std::uint32_t v = first_vertex + corners.local[i];
-    corners.clip[i] = ClipPosition(view, geometry.x_ws[v], geometry.y_ws[v], geometry.z_ws[v]);
-    if (task.options->cut != nullptr)
-      corners.clip[i].cut_side =
-          task.options->cut->side({geometry.x_ws[v], geometry.y_ws[v], geometry.z_ws[v]});
+    const glm::vec3& p = geometry.positions_ws[v];
+    corners.clip[i] = ClipPosition(view, p.x, p.y, p.z);
+    if (task.options->cut != nullptr) corners.clip[i].cut_side = task.options->cut->side(p);
     corners.right_side[i] = view.is_orthographic ? view.reversed_near - corners.clip[i].near_side : 1.0;
   }
   return corners;

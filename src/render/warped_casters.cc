@@ -35,7 +35,7 @@ glm::dmat4 pixel_from_space(const raster::RasterView& view) {
 WarpedCasters::WarpedCasters(const TriangleClusters& geometry, const light::Warp& warp, const TaskPool& pool)
     : clusters_(geometry.clusters.begin(), geometry.clusters.end()), corners_(geometry.corners) {
   const std::size_t count = vertex_count(geometry) + kPadding;
-  for (AlignedVector<float>* values : {&x_, &y_, &z_}) values->resize(count, 0);
+  positions_.resize(count, glm::vec3(0));
   constexpr std::size_t kClustersPerTask = 64;
   pool.for_each((clusters_.size() + kClustersPerTask - 1) / kClustersPerTask, [&](std::size_t task, int) {
     const std::size_t end = std::min(clusters_.size(), (task + 1) * kClustersPerTask);
@@ -49,13 +49,13 @@ void WarpedCasters::warp_cluster(const TriangleClusters& from, const light::Warp
   std::fill_n(cluster.high_ws, 3, std::numeric_limits<float>::lowest());
   for (std::size_t v = cluster.first_vertex; v < cluster.first_vertex + std::size_t{cluster.vertex_count};
        ++v) {
-    const glm::dvec4 p = warp.warped_from_world * glm::dvec4(from.x_ws[v], from.y_ws[v], from.z_ws[v], 1);
+    const glm::dvec4 p = warp.warped_from_world * glm::dvec4(from.positions_ws[v], 1);
     if (!(p.w >= kNearestToEye)) {
       cluster.flags = 0;
       return;
     }
     const glm::vec3 at = glm::vec3(glm::dvec3(p) / p.w);
-    x_[v] = at.x, y_[v] = at.y, z_[v] = at.z;
+    positions_[v] = at;
     for (int k = 0; k < 3; ++k) {
       cluster.low_ws[k] = std::min(cluster.low_ws[k], at[k]);
       cluster.high_ws[k] = std::max(cluster.high_ws[k], at[k]);
@@ -63,9 +63,7 @@ void WarpedCasters::warp_cluster(const TriangleClusters& from, const light::Warp
   }
 }
 
-TriangleClusters WarpedCasters::geometry() const {
-  return {x_.data(), y_.data(), z_.data(), corners_, clusters_};
-}
+TriangleClusters WarpedCasters::geometry() const { return {positions_.data(), corners_, clusters_}; }
 
 WarpedCut::WarpedCut(const raster::AlphaCut& cut, const light::Warp& warp, const raster::RasterView& warped,
                      const raster::RasterView& unwarped)

@@ -21,7 +21,7 @@ class WarpedCasters {
  private:
   void warp_cluster(const TriangleClusters& from, const light::Warp& warp, Cluster& cluster);
 
-  AlignedVector<float> x_, y_, z_;
+  AlignedVector<glm::vec3> positions_;
   std::vector<Cluster> clusters_;
   const std::uint32_t* corners_;
 };

@@ -38,8 +38,7 @@ std::optional<std::array<Corner, 3>> project_triangle(const BoundLight& light, c
   for (std::uint32_t i = 0; i < 3; ++i) {
     const std::uint32_t v =
         geometry.clusters[cluster_of(id)].first_vertex + (geometry.corners[id] >> (8 * i) & 255U);
-    const auto corner =
-        project(light, *source.view, glm::dvec3(geometry.x_ws[v], geometry.y_ws[v], geometry.z_ws[v]));
+    const auto corner = project(light, *source.view, glm::dvec3(geometry.positions_ws[v]));
     if (!corner) return std::nullopt;
     corners[i] = *corner;
   }

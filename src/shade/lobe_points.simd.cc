@@ -86,9 +86,7 @@ class LobeReader {
     const Vector3 flat = facet_.unit_normal;
     if (stream.IsMissing()) return flat;
     const Vector3 smooth =
-        Normalised(Interpolate(corners_.At3(frame_.normal_x_ws.data(), frame_.normal_y_ws.data(),
-                                            frame_.normal_z_ws.data(), stream.first),
-                               hit_.weights));
+        Normalised(Interpolate(corners_.At(frame_.normals_ws.data(), stream.first), hit_.weights));
     return {stream.OrElse(smooth.x, flat.x), stream.OrElse(smooth.y, flat.y),
             stream.OrElse(smooth.z, flat.z)};
   }
@@ -99,15 +97,14 @@ class LobeReader {
     const Vector3 any = AnyPerpendicular(normal);
     const auto stream = corners_.StreamAt(kTangentField);
     if (stream.IsMissing()) return {any, Cross(normal, any)};
-    const Vector3 t = Interpolate(corners_.At3(frame_.tangent_x_ws.data(), frame_.tangent_y_ws.data(),
-                                               frame_.tangent_z_ws.data(), stream.first),
-                                  hit_.weights);
+    const auto at_corners = corners_.At(frame_.tangents_ws.data(), stream.first);
+    const Vector3 t = Interpolate(at_corners.xyz, hit_.weights);
     const Vector3 across = Normalised(t - normal * Dot(normal, t));
     const auto is_null = Dot(across, across) <= Splat(0.5F);
     const Vector3 usable = IfThenElse3(is_null, any, across);
     const Vector3 tangent = {stream.OrElse(usable.x, any.x), stream.OrElse(usable.y, any.y),
                              stream.OrElse(usable.z, any.z)};
-    const auto sign = stream.OrElse(corners_.At(frame_.tangent_sign.data(), stream.first).a, one);
+    const auto sign = stream.OrElse(at_corners.w.a, one);
     return {tangent, Cross(normal, tangent) * sign};
   }
 

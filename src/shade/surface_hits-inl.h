@@ -54,12 +54,16 @@ HWY_INLINE void VisitSurfaceHits(const PointSource& source, const frame::Surface
                    hn::Load(d, s.q.data() + i), source.interpolation);
   };
   const TriangleId* ids = s.id.data();
+  // Wide triangles fill many groups one after the other.
+  Facet facet_of_group{};
+  TriangleId facet_id = kNoTriangle;
   for (std::size_t first = 0; first < s.group_count * shadow::kGroupSize; first += shadow::kGroupSize) {
     if (IsOneTriangle(ids + first)) {
       const frame::HWY_NAMESPACE::TriangleCorners<true> corners(*source.frame, ids + first);
-      const Facet facet = FindFacet<true>(rays, corners.Positions());
+      if (facet_id != ids[first]) facet_of_group = FindFacet<true>(rays, corners.Positions());
+      facet_id = ids[first];
       for (std::size_t i = first; i < first + shadow::kGroupSize; i += kLanes)
-        visit(SurfaceHits<true, false>{corners, facet, find_hit(facet, i)}, i);
+        visit(SurfaceHits<true, false>{corners, facet_of_group, find_hit(facet_of_group, i)}, i);
     } else {
       for (std::size_t i = first; i < first + shadow::kGroupSize; i += kLanes) {
         const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*source.frame, ids + i);

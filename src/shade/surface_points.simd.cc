@@ -19,6 +19,7 @@ namespace laterna::shade::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace laterna::HWY_NAMESPACE;  // NOLINT: the vector vocabulary
 using frame::HWY_NAMESPACE::AlphaInView;
+using frame::HWY_NAMESPACE::CornerVectorsAndValues;
 using frame::HWY_NAMESPACE::FindFootprint;
 using frame::HWY_NAMESPACE::Interpolate;
 using frame::HWY_NAMESPACE::kColorField;
@@ -55,9 +56,7 @@ class SurfaceReader {
     const auto stream = corners_.StreamAt(kColorField);
     if (stream.IsMissing()) return color;
     const auto one = Splat(1.0F);
-    const Vector3 c = Interpolate(
-        corners_.At3(frame_.color_r.data(), frame_.color_g.data(), frame_.color_b.data(), stream.first),
-        hit_.weights);
+    const Vector3 c = Interpolate(corners_.At(frame_.colors.data(), stream.first).xyz, hit_.weights);
     // On a relief the point may lie beyond its triangle, where colours go on below nothing.
     const auto held = [&](FloatVector value)
                           HWY_ATTR { return hn::Max(stream.OrElse(value, one), Splat(0.0F)); };
@@ -69,10 +68,8 @@ class SurfaceReader {
     const auto stream = corners_.StreamAt(kNormalField);
     Vector3 normal = facet_.unit_normal;
     if (!stream.IsMissing()) {
-      const Vector3 sum = Interpolate(corners_.At3(frame_.normal_x_ws.data(), frame_.normal_y_ws.data(),
-                                                   frame_.normal_z_ws.data(), stream.first),
-                                      hit_.weights);
-      const Vector3 smooth = Normalised(sum);
+      const Vector3 smooth =
+          Normalised(Interpolate(corners_.At(frame_.normals_ws.data(), stream.first), hit_.weights));
       normal = {stream.OrElse(smooth.x, normal.x), stream.OrElse(smooth.y, normal.y),
                 stream.OrElse(smooth.z, normal.z)};
     }
@@ -92,10 +89,9 @@ class SurfaceReader {
     const Vector3 t = LookUpTexture(surface_.normal_texture);
     const auto two = Splat(2.0F), one = Splat(1.0F), scale = Splat(surface_.normal_scale);
     const Vector3 local = {(t.x * two - one) * scale, (t.y * two - one) * scale, t.z * two - one};
-    const Vector3 tangent = Interpolate(corners_.At3(frame_.tangent_x_ws.data(), frame_.tangent_y_ws.data(),
-                                                     frame_.tangent_z_ws.data(), stream.first),
-                                        hit_.weights);
-    const auto sign = corners_.At(frame_.tangent_sign.data(), stream.first).a;
+    const CornerVectorsAndValues at_corners = corners_.At(frame_.tangents_ws.data(), stream.first);
+    const Vector3 tangent = Interpolate(at_corners.xyz, hit_.weights);
+    const auto sign = at_corners.w.a;
     const Vector3 bitangent = Cross(normal, tangent) * sign;
     const Vector3 mapped = Normalised((tangent * local.x + bitangent * local.y) + normal * local.z);
     const auto is_null = Dot(mapped, mapped) <= Splat(0.0F);

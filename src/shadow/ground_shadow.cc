@@ -145,7 +145,7 @@ void GroundShadow::draw_cluster(const Receiver& receiver, std::size_t cluster, B
   constexpr unsigned kFlat = 16, kBehind = 32;
   for (std::size_t v = 0; v < c.vertex_count; ++v) {
     const std::size_t i = c.first_vertex + v;
-    const glm::dvec4 p(frame_.x_ws[i], frame_.y_ws[i], frame_.z_ws[i], 1);
+    const glm::dvec4 p(frame_.positions_ws[i], 1);
     Corner& corner = corners[v];
     corner = {glm::dot(receiver.s, p), glm::dot(receiver.t, p), glm::dot(receiver.w, p),
               glm::dot(receiver.height, p), glm::dot(in_front_, p)};

@@ -37,8 +37,8 @@ HWY_INLINE Vector3 BaseColorOf(const frame::Frame& frame, const frame::Surface& 
   const auto stream = corners.StreamAt(frame::HWY_NAMESPACE::kColorField);
   if (stream.IsMissing()) return color;
   const auto one = Splat(1.0F);
-  const Vector3 c = frame::HWY_NAMESPACE::Interpolate(
-      corners.At3(frame.color_r.data(), frame.color_g.data(), frame.color_b.data(), stream.first), weights);
+  const Vector3 c =
+      frame::HWY_NAMESPACE::Interpolate(corners.At(frame.colors.data(), stream.first).xyz, weights);
   return Product(color, {stream.OrElse(c.x, one), stream.OrElse(c.y, one), stream.OrElse(c.z, one)});
 }
 

@@ -279,8 +279,8 @@ std::array<TriangleId, 3> ParaboloidShadow::find_across(TriangleId id) const {
   const std::int32_t source = neighbours_->sources[cluster_of(id)];
   const std::size_t in_mesh =
       (static_cast<std::size_t>(source >> 1) << kTriangleBits) + (id & (kTrianglesPerCluster - 1));
-  const std::int32_t* steps = neighbours_->meshes->steps.data() + 3 * in_mesh;
-  const auto across = [&](std::size_t k) {
+  const glm::ivec3& steps = neighbours_->meshes->steps[in_mesh];
+  const auto across = [&](int k) {
     return static_cast<TriangleId>(static_cast<std::int32_t>(id) + steps[k]);
   };
   // A mirrored instance has its second and third corners swapped.

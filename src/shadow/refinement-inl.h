@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "base/record_gather-inl.h"
 #include "base/vectors-inl.h"
 #include "frame/surface_alpha-inl.h"
 #include "frame/triangle_corners-inl.h"
@@ -156,6 +157,7 @@ struct Crossing {
   FloatMask meets;
   FloatMask is_apart;            // the points lie off the triangles' planes
   FloatMask is_parallel;         // to the triangle: the weights mean nothing
+  FloatMask is_behind;           // the triangle's plane is met on the way from the light, not toward it
   FloatVector u, v;              // weights of the second and third corner
   FloatVector distance_squared;  // from the point
   FloatMask is_small;            // seen from the light, the triangle hardly covers a texel
@@ -190,6 +192,7 @@ class RayTest {
     const auto t = volume * rays.inverse;
     Crossing crossing;
     crossing.is_parallel = rays.is_parallel;
+    crossing.is_behind = hn::AndNot(rays.is_parallel, t <= zero);
     crossing.is_apart = hn::Abs(volume) > Splat(error) * normal_length_;
     crossing.u = Dot(s, rays.p) * rays.inverse;
     crossing.v = Dot(rays.direction, q) * rays.inverse;
@@ -302,6 +305,8 @@ class Walk {
   [[nodiscard]] FloatMask walks() const { return walks_; }
   // Walks that ended where the surface does not go on toward the ray, or at the ray.
   [[nodiscard]] FloatMask is_settled() const { return is_settled_; }
+  // Of those, the ones that came to the sample's own triangle.
+  [[nodiscard]] FloatMask is_home() const { return is_home_; }
 
   // Goes on from the present triangles, which the rays meet at `crossing`; false: none does.
   HWY_INLINE bool Step(const Crossing& crossing, FloatMask is_blocked) {
@@ -328,9 +333,9 @@ class Walk {
       next = hn::IfThenElse(hn::RebindMask(IntTag(), is_better), edges.across[k], next);
     }
     const auto has_next = lowest < zero;
-    const auto arrives_home = SameTriangle(next, own_);
-    const auto ends_well =
-        hn::Or(hn::And(has_next, arrives_home), hn::AndNot(hn::Or(has_next, is_open), walks_));
+    const auto arrives_home = hn::And(has_next, SameTriangle(next, own_));
+    is_home_ = hn::Or(is_home_, hn::And(walks_, arrives_home));
+    const auto ends_well = hn::Or(arrives_home, hn::AndNot(hn::Or(has_next, is_open), walks_));
     is_settled_ = hn::Or(is_settled_, hn::And(walks_, ends_well));
     walks_ = hn::AndNot(arrives_home, hn::And(walks_, has_next));
     from_ = id_;
@@ -352,18 +357,16 @@ class Walk {
     const auto source = hn::GatherIndex(di, neighbours_.sources.data(), cluster);
     const auto in_cluster = hn::And(id_, SplatInt(kTrianglesPerCluster - 1));
     const auto triangle = hn::ShiftLeft<kTriangleBits>(hn::ShiftRight<1>(source)) + in_cluster;
-    const auto first = triangle + triangle + triangle;
-    const std::int32_t* steps = neighbours_.meshes->steps.data();
-    Edges edges;
-    for (int k = 0; k < 3; ++k) edges.across[k] = id_ + hn::GatherIndex(di, steps + k, first);
-    edges.is_mirrored = hn::RebindMask(FloatTag(), hn::And(source, SplatInt(1)) != hn::Zero(di));
-    return edges;
+    const auto steps = GatherRecords(neighbours_.meshes->steps.data(), triangle);
+    const auto is_mirrored = hn::RebindMask(FloatTag(), hn::And(source, SplatInt(1)) != hn::Zero(di));
+    return {{id_ + steps.x, id_ + steps.y, id_ + steps.z}, is_mirrored};
   }
 
   const frame::TriangleNeighbours& neighbours_;
   IntVector own_, id_, from_;
   FloatMask walks_;
   FloatMask is_settled_ = Splat(0.0F) > Splat(0.0F);
+  FloatMask is_home_ = is_settled_;
 };
 
 // Adds triangles that stand between the light and places [first, end); returns how the ray of the first meets them.
@@ -433,6 +436,34 @@ HWY_INLINE Blocking TestSuspects(const ShadowMapTest& test, const BoundDepthMap&
   return blocking;
 }
 
+// Samples that a first look tells to be lit, as it does most: the centre's ray passes beside every suspect, and what lies next
+// to that on the surface toward the ray is the sample's own triangle; or it leaves the suspect, which no texel saw far in
+// front, behind: the light falls on a fold from within.
+template <bool kOrthographic>
+HWY_INLINE FloatMask AreLeftBehind(const ShadowMapTest& test, const BoundDepthMap& bound,
+                                   const Points& points, float position_error, const Suspects& suspects,
+                                   IntVector own) {
+  const FloatTag d;
+  const auto none = Splat(0.0F) > Splat(0.0F);
+  auto are_left = suspects.is_covered;
+  for (int slot = 0; slot < Suspects::kMost; ++slot) {
+    const IntVector id = suspects.id[slot];
+    const auto wanted = hn::AndNot(hn::RebindMask(d, id == own), are_left);
+    if (hn::AllFalse(d, wanted)) break;
+    const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*test.frame, id);
+    const Crossing crossing =
+        RayTest<kOrthographic>(bound, corners.Positions()).From(points.position_ws, position_error, none);
+    auto is_left = hn::And(crossing.is_behind, suspects.far_weight[slot] == Splat(0.0F));
+    if (test.neighbours != nullptr) {
+      Walk walk(test, id, own, wanted);
+      walk.Step(crossing, none);
+      is_left = hn::Or(is_left, walk.is_home());
+    }
+    are_left = hn::AndNot(hn::AndNot(is_left, wanted), are_left);
+  }
+  return are_left;
+}
+
 // α of the pixel from its places'. A side that the light does not fall on is darkened by the body whose side it is. Where
 // that is finely cut, rays from other places leave it through triangles that the centre's walk has not met: where its
 // centre is dark, such a side is.
@@ -485,6 +516,20 @@ HWY_INLINE FloatVector RefinedArrival(const ShadowMapTest& test, const SurfaceSa
   return result;
 }
 
+// Samples that are lit for all that a first look at every map tells.
+HWY_INLINE FloatMask AreLitAtFirstLook(const ShadowMapTest& test, const SurfaceSamples& s,
+                                       const Points& points, IntVector own) {
+  auto are_lit = Splat(0.0F) <= Splat(0.0F);
+  ForEachMap(test, points, [&](const BoundDepthMap& map, const Share& share) HWY_ATTR {
+    const Suspects suspects = FindSuspects(MapReader(test, map, s.position_error), points, own, share.here);
+    const auto are_left = map.is_orthographic
+                              ? AreLeftBehind<true>(test, map, points, s.position_error, suspects, own)
+                              : AreLeftBehind<false>(test, map, points, s.position_error, suspects, own);
+    are_lit = hn::AndNot(hn::AndNot(are_left, share.here), are_lit);
+  });
+  return are_lit;
+}
+
 // ---------------------------------------------------------------------------------------------- lists
 
 // The samples that need refinement, gathered N at a time from all groups.
@@ -497,30 +542,59 @@ class RefinementList {
   }
 
   void Refine(const ShadowMapTest& test, const SurfaceSamples& s, float* alpha) {
+    LeaveLit(test, s, alpha);
     const FloatTag d;
-    const IntTag di;
-    if (count_ == 0) return;
-    for (std::size_t i = count_; i % kLanes != 0; ++i) indices_[i] = indices_[count_ - 1];
-    for (std::size_t first = 0; first < count_; first += kLanes) {
-      const auto index = hn::Load(di, indices_.data() + first);
-      const auto read = [&](const SampleArray<float>& values)
-                            HWY_ATTR { return hn::GatherIndex(d, values.data(), index); };
-      const Points points = {read(s.x),
-                             read(s.y),
-                             read(s.q),
-                             {read(s.x_ws), read(s.y_ws), read(s.z_ws)},
-                             {read(s.normal_x_ws), read(s.normal_y_ws), read(s.normal_z_ws)}};
-      const Slopes slopes = FindSlopes(test, points, read(s.dq_dx), read(s.dq_dy));
-      const auto own = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(s.id.data()), index);
+    ForEachVector([&](std::size_t first, IntVector index) HWY_ATTR {
+      const Points points = PointsAt(s, index);
+      const Slopes slopes = FindSlopes(test, points, At(s.dq_dx, index), At(s.dq_dy, index));
       alignas(64) float values[kLanes];
-      hn::Store(RefinedArrival(test, s, points, slopes, own), d, values);
+      hn::Store(RefinedArrival(test, s, points, slopes, OwnAt(s, index)), d, values);
       for (std::size_t k = 0; k < kLanes && first + k < count_; ++k) {
         alpha[static_cast<std::size_t>(indices_[first + k])] = values[k];
       }
-    }
+    });
   }
 
  private:
+  // Those that a first look tells to be lit leave the list: what remains fills whole vectors.
+  void LeaveLit(const ShadowMapTest& test, const SurfaceSamples& s, float* alpha) {
+    std::size_t left = 0;
+    ForEachVector([&](std::size_t first, IntVector index) HWY_ATTR {
+      const std::uint32_t lit = BitsOf(AreLitAtFirstLook(test, s, PointsAt(s, index), OwnAt(s, index)));
+      for (std::size_t k = 0; k < kLanes && first + k < count_; ++k) {
+        const std::int32_t sample = indices_[first + k];
+        if ((lit >> k & 1U) != 0) {
+          alpha[static_cast<std::size_t>(sample)] = 1;
+        } else {
+          indices_[left++] = sample;
+        }
+      }
+    });
+    count_ = left;
+  }
+
+  template <class Visit>
+  HWY_INLINE void ForEachVector(const Visit& visit) {
+    if (count_ == 0) return;
+    for (std::size_t i = count_; i % kLanes != 0; ++i) indices_[i] = indices_[count_ - 1];
+    for (std::size_t first = 0; first < count_; first += kLanes)
+      visit(first, hn::Load(IntTag(), indices_.data() + first));
+  }
+
+  static HWY_INLINE FloatVector At(const SampleArray<float>& values, IntVector index) {
+    return hn::GatherIndex(FloatTag(), values.data(), index);
+  }
+  static HWY_INLINE IntVector OwnAt(const SurfaceSamples& s, IntVector index) {
+    return hn::GatherIndex(IntTag(), reinterpret_cast<const std::int32_t*>(s.id.data()), index);
+  }
+  static HWY_INLINE Points PointsAt(const SurfaceSamples& s, IntVector index) {
+    return {At(s.x, index),
+            At(s.y, index),
+            At(s.q, index),
+            {At(s.x_ws, index), At(s.y_ws, index), At(s.z_ws, index)},
+            {At(s.normal_x_ws, index), At(s.normal_y_ws, index), At(s.normal_z_ws, index)}};
+  }
+
   alignas(
       64) std::array<std::int32_t, kMaxSamples + kGroupSize> indices_;  // NOLINT: filled as far as it is read
   std::size_t count_ = 0;

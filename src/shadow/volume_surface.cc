@@ -46,11 +46,12 @@ class VolumeSurface::Builder {
     for (const Cluster& cluster : frame_.clusters) {
       if (!is_opaque_caster(cluster)) continue;
       for (std::uint32_t v = cluster.first_vertex; v < cluster.first_vertex + cluster.vertex_count; ++v)
-        positions.push_back({frame_.x_ws[v], frame_.y_ws[v], frame_.z_ws[v], v});
+        positions.push_back(
+            {frame_.positions_ws[v].x, frame_.positions_ws[v].y, frame_.positions_ws[v].z, v});
     }
     std::sort(positions.begin(), positions.end(),
               [](const Position& a, const Position& b) { return a.is_before(b); });
-    point_of_vertex_.resize(frame_.x_ws.size());
+    point_of_vertex_.resize(frame_.positions_ws.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const Position& p = positions[i];
       if (i == 0 || positions[i - 1].is_before(p)) surface_.points_ws_.emplace_back(p.x, p.y, p.z);

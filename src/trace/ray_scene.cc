@@ -58,7 +58,7 @@ class EmbreeScene {
 
  private:
   void add_triangles(RTCDevice device) {
-    const std::size_t vertex_count = frame_.x_ws.size();
+    const std::size_t vertex_count = frame_.positions_ws.size();
     std::vector<std::uint32_t> indices;
     for (std::uint32_t c = 0; c < frame_.clusters.size(); ++c) {
       const Cluster& cluster = frame_.clusters[c];
@@ -72,15 +72,11 @@ class EmbreeScene {
     }
     if (ids_.empty()) return;
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertex_count));
+    auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), vertex_count));
     auto* corners = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), ids_.size()));
-    for (std::size_t i = 0; i < vertex_count; ++i) {
-      vertices[3 * i] = frame_.x_ws[i];
-      vertices[3 * i + 1] = frame_.y_ws[i];
-      vertices[3 * i + 2] = frame_.z_ws[i];
-    }
+    std::copy(frame_.positions_ws.begin(), frame_.positions_ws.end(), vertices);
     std::copy(indices.begin(), indices.end(), corners);
     rtcSetGeometryUserData(geometry, this);
     rtcSetGeometryOccludedFilterFunction(geometry, &filter_hits);

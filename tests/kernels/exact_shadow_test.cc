@@ -44,7 +44,7 @@ glm::dvec3 position(const SurfaceSamples& s, std::size_t i) { return {s.x_ws[i],
 
 glm::dvec3 corner(const frame::Frame& frame, TriangleId id, std::uint32_t k) {
   const std::uint32_t v = frame.clusters[cluster_of(id)].first_vertex + (frame.corners[id] >> (8 * k) & 255U);
-  return {frame.x_ws[v], frame.y_ws[v], frame.z_ws[v]};
+  return frame.positions_ws[v];
 }
 
 // Points on the frame's triangles: groups lie close together on one, or anywhere.

@@ -322,7 +322,7 @@ class Casters {
         Triangle triangle = {id, {}, (cluster.flags & kCastsShadow) != 0};
         for (std::uint32_t k = 0; k < 3; ++k) {
           const std::uint32_t v = cluster.first_vertex + (frame.corners[id] >> (8 * k) & 255U);
-          triangle.corner[k] = {frame.x_ws[v], frame.y_ws[v], frame.z_ws[v]};
+          triangle.corner[k] = frame.positions_ws[v];
         }
         triangles_.push_back(triangle);
       }

@@ -97,11 +97,12 @@ const frame::Surface& surface_of(const frame::Frame& frame, TriangleId id) {
 }
 
 // Interpolates a stream in double.
-double interpolate(const frame::Frame& frame, const AlignedVector<float>& values, std::uint32_t first,
-                   TriangleId id, double b, double c) {
+template <class Value, class Values>
+Value interpolate(const frame::Frame& frame, const Values& values, std::uint32_t first, TriangleId id,
+                  double b, double c) {
   const std::uint32_t packed = frame.corners[id];
-  return values[first + (packed & 255U)] * (1 - b - c) + values[first + (packed >> 8U & 255U)] * b +
-         values[first + (packed >> 16U & 255U)] * c;
+  return Value(values[first + (packed & 255U)]) * (1 - b - c) +
+         Value(values[first + (packed >> 8U & 255U)]) * b + Value(values[first + (packed >> 16U & 255U)]) * c;
 }
 
 TEST(SurfaceAlpha, IsTheProductOfFactorFullSizeTextureAndVertexAlpha) {
@@ -115,17 +116,16 @@ TEST(SurfaceAlpha, IsTheProductOfFactorFullSizeTextureAndVertexAlpha) {
     const frame::ClusterStreams& streams = frame.streams[cluster_of(id)];
     double expected = surface.base_color[3];
     if (streams.color != frame::kNoStream)
-      expected *= interpolate(frame, frame.color_a, streams.color, id, p.b[i], p.c[i]);
+      expected *= interpolate<glm::dvec4>(frame, frame.colors, streams.color, id, p.b[i], p.c[i]).a;
     const frame::TextureBinding& binding = surface.base_color_texture;
     if (binding.chain != nullptr) {
       const auto set = static_cast<std::size_t>(binding.uv_set);
       reference::TextureProbe probe;
       if (streams.uv[set] != frame::kNoStream) {
-        const double u = interpolate(frame, frame.uv_u[set], streams.uv[set], id, p.b[i], p.c[i]);
-        const double v = interpolate(frame, frame.uv_v[set], streams.uv[set], id, p.b[i], p.c[i]);
+        const auto uv = interpolate<glm::dvec2>(frame, frame.uvs[set], streams.uv[set], id, p.b[i], p.c[i]);
         const std::array<float, 6>& m = binding.uv_from_mesh_uv;
-        probe.u = m[0] * u + m[1] * v + m[2];
-        probe.v = m[3] * u + m[4] * v + m[5];
+        probe.u = m[0] * uv.x + m[1] * uv.y + m[2];
+        probe.v = m[3] * uv.x + m[4] * uv.y + m[5];
       }
       const reference::TextureSample sample = reference::look_up(*binding.chain, binding.sampler, 1, probe);
       if (sample.is_ambiguous) continue;

@@ -116,35 +116,33 @@ class Triangle {
     const std::uint32_t first = frame.clusters[cluster_of(id)].first_vertex;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t v = first + local_[i];
-      corner[i] = {frame.x_ws[v], frame.y_ws[v], frame.z_ws[v]};
+      corner[i] = frame.positions_ws[v];
     }
     normal = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
   }
 
-  [[nodiscard]] double read(const AlignedVector<float>& values, std::uint32_t stream,
-                            const glm::dvec3& weights) const {
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) sum += weights[i] * values[stream + local_[static_cast<std::size_t>(i)]];
+  // Sum in double of a stream's values at the corners.
+  template <class Sum, class Values>
+  [[nodiscard]] Sum read(const Values& values, std::uint32_t stream, const glm::dvec3& weights) const {
+    Sum sum(0);
+    for (int i = 0; i < 3; ++i) sum += weights[i] * Sum(values[stream + local_[static_cast<std::size_t>(i)]]);
     return sum;
   }
   [[nodiscard]] glm::dvec3 vertex_normal(const glm::dvec3& w) const {
-    return {read(frame_.normal_x_ws, streams_.normal, w), read(frame_.normal_y_ws, streams_.normal, w),
-            read(frame_.normal_z_ws, streams_.normal, w)};
+    return read<glm::dvec3>(frame_.normals_ws, streams_.normal, w);
   }
   [[nodiscard]] bool has_normals() const { return streams_.normal != kNoStream; }
   [[nodiscard]] glm::dvec3 tangent(const glm::dvec3& w) const {
-    return {read(frame_.tangent_x_ws, streams_.tangent, w), read(frame_.tangent_y_ws, streams_.tangent, w),
-            read(frame_.tangent_z_ws, streams_.tangent, w)};
+    return read<glm::dvec3>(frame_.tangents_ws, streams_.tangent, w);
   }
   [[nodiscard]] bool has_tangents() const { return streams_.tangent != kNoStream; }
-  [[nodiscard]] double tangent_sign() const { return frame_.tangent_sign[streams_.tangent + local_[0]]; }
+  [[nodiscard]] double tangent_sign() const { return frame_.tangents_ws[streams_.tangent + local_[0]].w; }
   [[nodiscard]] glm::dvec2 uv(std::size_t set, const glm::dvec3& w) const {
-    return {read(frame_.uv_u[set], streams_.uv[set], w), read(frame_.uv_v[set], streams_.uv[set], w)};
+    return read<glm::dvec2>(frame_.uvs[set], streams_.uv[set], w);
   }
   [[nodiscard]] glm::dvec4 color(const glm::dvec3& w) const {
     if (streams_.color == kNoStream) return glm::dvec4(1);
-    return {read(frame_.color_r, streams_.color, w), read(frame_.color_g, streams_.color, w),
-            read(frame_.color_b, streams_.color, w), read(frame_.color_a, streams_.color, w)};
+    return read<glm::dvec4>(frame_.colors, streams_.color, w);
   }
 
   glm::dvec3 corner[3], normal;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 
 #include "frame/frame.h"
@@ -25,6 +26,16 @@ OneArgument logarithms_for(InstructionSet set);
 OneArgument cosines_for(InstructionSet set);
 OneArgument saturated_for(InstructionSet set);
 TwoArguments powers_for(InstructionSet set);
+
+/// x, y, z of the records at `index`, and z of `counts` there.
+struct RecordProbes {
+  std::span<const glm::vec3> records;
+  std::span<const glm::ivec3> counts;
+  std::span<const std::int32_t> index;
+  Results x, y, z, last_count;
+};
+using GatherProbes = void (*)(const RecordProbes& probes);
+GatherProbes gather_probes_for(InstructionSet set);
 
 /// Three results per input: the components of the normalised vector.
 struct Directions {

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/record_gather-inl.h"
 #include "base/vectors-inl.h"
 #include "frame/surface_alpha-inl.h"
 #include "image/texture_lookup-inl.h"
@@ -42,6 +43,18 @@ void saturated(Numbers x, Results result) {
 void powers(Numbers x, Numbers y, Results result) {
   for (std::size_t i = 0; i < x.size(); i += kLanes)
     hn::Store(Power(At(x, i), At(y, i)), FloatTag(), result.data() + i);
+}
+
+void gather_probes(const RecordProbes& p) {
+  const FloatTag d;
+  for (std::size_t i = 0; i < p.index.size(); i += kLanes) {
+    const auto index = hn::Load(IntTag(), p.index.data() + i);
+    const auto record = GatherRecords(p.records.data(), index);
+    hn::Store(record.x, d, p.x.data() + i);
+    hn::Store(record.y, d, p.y.data() + i);
+    hn::Store(record.z, d, p.z.data() + i);
+    hn::Store(hn::ConvertTo(d, GatherRecords(p.counts.data(), index).z), d, p.last_count.data() + i);
+  }
 }
 
 void normalise(const Directions& directions) {
@@ -103,6 +116,7 @@ LATERNA_KERNEL_TABLE(logarithms)
 LATERNA_KERNEL_TABLE(cosines)
 LATERNA_KERNEL_TABLE(saturated)
 LATERNA_KERNEL_TABLE(powers)
+LATERNA_KERNEL_TABLE(gather_probes)
 LATERNA_KERNEL_TABLE(normalise)
 LATERNA_KERNEL_TABLE(compare_depths)
 LATERNA_KERNEL_TABLE(evaluate_row)

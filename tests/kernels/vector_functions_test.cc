@@ -257,6 +257,30 @@ TEST_P(VectorFunctions, EquationSixGivesWhatDirectProjectionGives) {
   }
 }
 
+TEST_P(VectorFunctions, RecordsAreGatheredLaneByLane) {
+  std::mt19937 random(3);
+  constexpr std::int32_t kRecords = 5000;
+  AlignedVector<glm::vec3> records(kRecords + 1);  // one to read beyond
+  AlignedVector<glm::ivec3> counts(kRecords + 1);
+  for (std::int32_t i = 0; i <= kRecords; ++i) {
+    const auto k = static_cast<float>(i);
+    records[static_cast<std::size_t>(i)] = {k, k + 0.25F, -k};
+    counts[static_cast<std::size_t>(i)] = {i, -i, 2 * i + 1};
+  }
+  AlignedVector<std::int32_t> index(kCount);
+  for (std::int32_t& i : index) i = static_cast<std::int32_t>(random() % kRecords);
+  index[17] = 0, index[18] = kRecords - 1;
+  Floats x(kCount), y(kCount), z(kCount), last_count(kCount);
+  gather_probes_for(GetParam())({records, counts, index, x, y, z, last_count});
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const auto k = static_cast<float>(index[i]);
+    ASSERT_EQ(x[i], k) << i;
+    ASSERT_EQ(y[i], k + 0.25F) << i;
+    ASSERT_EQ(z[i], -k) << i;
+    ASSERT_EQ(last_count[i], 2 * k + 1) << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sets, VectorFunctions, testing::ValuesIn(supported_instruction_sets()),
                          [](const auto& set) { return std::string(name_of(set.param)); });
 

@@ -57,7 +57,7 @@ class PosedFrame {
     std::vector<glm::dvec3> vertices(part.primitive->positions.size());
     for (std::size_t i = 0; i < part.clustered->source_vertices.size(); ++i) {
       const std::size_t at = part.first_vertex + i;
-      vertices[part.clustered->source_vertices[i]] = {frame.x_ws[at], frame.y_ws[at], frame.z_ws[at]};
+      vertices[part.clustered->source_vertices[i]] = frame.positions_ws[at];
     }
     if (part.primitive->indices.empty()) return vertices;
     std::vector<glm::dvec3> corners;

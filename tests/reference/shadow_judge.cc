@@ -53,7 +53,7 @@ ShadowJudge::ShadowJudge(const frame::Frame& frame, const frame::PlacedLight& pl
       Caster caster = {c << kTriangleBits | t, {}};
       for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t v = cluster.first_vertex + (frame.corners[caster.id] >> (8 * k) & 255U);
-        caster.corner[k] = {frame.x_ws[v], frame.y_ws[v], frame.z_ws[v]};
+        caster.corner[k] = frame.positions_ws[v];
       }
       casters_.push_back(caster);
     }

@@ -61,7 +61,7 @@ class Casters {
     const Cluster& cluster = frame_.clusters[cluster_of(id)];
     const auto corner = [&](unsigned k) {
       const std::uint32_t v = cluster.first_vertex + (frame_.corners[id] >> (8 * k) & 255U);
-      return glm::dvec3(frame_.x_ws[v], frame_.y_ws[v], frame_.z_ws[v]);
+      return glm::dvec3(frame_.positions_ws[v]);
     };
     const glm::dvec3 u = corner(1) - corner(0);
     const glm::dvec3 v = corner(2) - corner(0);

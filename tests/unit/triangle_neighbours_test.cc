@@ -30,7 +30,8 @@ std::array<Place, 3> corners_of(const Frame& frame, TriangleId id) {
   std::array<Place, 3> corners;
   for (unsigned k = 0; k < 3; ++k) {
     const std::size_t v = frame.clusters[cluster_of(id)].first_vertex + (frame.corners[id] >> (8 * k) & 255U);
-    corners[k] = {frame.x_ws[v], frame.y_ws[v], frame.z_ws[v]};
+    const glm::vec3& p = frame.positions_ws[v];
+    corners[k] = {p.x, p.y, p.z};
   }
   return corners;
 }
@@ -40,7 +41,7 @@ TriangleId across(const TriangleNeighbours& neighbours, TriangleId id, unsigned 
   const auto source = static_cast<std::size_t>(neighbours.sources[cluster_of(id)]);
   const std::size_t triangle = (source >> 1U) * kTrianglesPerCluster + id % kTrianglesPerCluster;
   const unsigned stored = source % 2 == 0 ? edge : 2 - edge;
-  return id + static_cast<TriangleId>(neighbours.meshes->steps[3 * triangle + stored]);
+  return id + static_cast<TriangleId>(neighbours.meshes->steps[triangle][static_cast<int>(stored)]);
 }
 
 std::vector<TriangleId> triangles_of(const Frame& frame) {
