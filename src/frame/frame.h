@@ -33,6 +33,11 @@ struct TextureBinding {
   Sampler sampler;
   int uv_set = 0;
   std::array<float, 6> uv_from_mesh_uv = {1, 0, 0, 0, 1, 0};
+
+  /// Whether both lie at the same place of a surface, as a material's pictures mostly do.
+  [[nodiscard]] bool lies_like(const TextureBinding& other) const {
+    return uv_set == other.uv_set && uv_from_mesh_uv == other.uv_from_mesh_uv;
+  }
 };
 
 TextureBinding bind(const Texture& texture, image::MipUse use, const TextureLibrary& library);

@@ -54,22 +54,25 @@ HWY_INLINE void VisitSurfaceHits(const PointSource& source, const frame::Surface
                    hn::Load(d, s.q.data() + i), source.interpolation);
   };
   const TriangleId* ids = s.id.data();
-  // Wide triangles fill many groups one after the other.
-  Facet facet_of_group{};
-  TriangleId facet_id = kNoTriangle;
-  for (std::size_t first = 0; first < s.group_count * shadow::kGroupSize; first += shadow::kGroupSize) {
+  const std::size_t end = s.group_count * shadow::kGroupSize;
+  for (std::size_t first = 0; first < end;) {
     if (IsOneTriangle(ids + first)) {
-      const frame::HWY_NAMESPACE::TriangleCorners<true> corners(*source.frame, ids + first);
-      if (facet_id != ids[first]) facet_of_group = FindFacet<true>(rays, corners.Positions());
-      facet_id = ids[first];
-      for (std::size_t i = first; i < first + shadow::kGroupSize; i += kLanes)
-        visit(SurfaceHits<true, false>{corners, facet_of_group, find_hit(facet_of_group, i)}, i);
+      const TriangleId id = ids[first];
+      const frame::HWY_NAMESPACE::TriangleCorners<true> corners(*source.frame, &id);
+      const Facet facet = FindFacet<true>(rays, corners.Positions());
+      // Wide triangles fill many groups one after the other.
+      do {
+        for (std::size_t i = first; i < first + shadow::kGroupSize; i += kLanes)
+          visit(SurfaceHits<true, false>{corners, facet, find_hit(facet, i)}, i);
+        first += shadow::kGroupSize;
+      } while (first < end && ids[first] == id && IsOneTriangle(ids + first));
     } else {
       for (std::size_t i = first; i < first + shadow::kGroupSize; i += kLanes) {
         const frame::HWY_NAMESPACE::TriangleCorners<false> corners(*source.frame, ids + i);
         const Facet facet = FindFacet<false>(rays, corners.Positions());
         visit(SurfaceHits<false, false>{corners, facet, find_hit(facet, i)}, i);
       }
+      first += shadow::kGroupSize;
     }
   }
 }

@@ -43,13 +43,16 @@ class SurfaceReader {
         facet_(hits.facet),
         hit_(hits.hit) {}
 
-  HWY_INLINE Vector3 LookUpTexture(const frame::TextureBinding& binding) const {
-    return LookUp(*binding.chain, binding.sampler, source_.anisotropy,
-                  FindFootprint(frame_, binding, corners_, hit_.weights));
+  HWY_INLINE Vector3 LookUpTexture(const frame::TextureBinding& binding) {
+    if (placed_ == nullptr || !binding.lies_like(*placed_)) {
+      footprint_ = FindFootprint(frame_, binding, corners_, hit_.weights);
+      placed_ = &binding;
+    }
+    return LookUp(*binding.chain, binding.sampler, source_.anisotropy, footprint_);
   }
 
   // Base colour with everything that multiplies it.
-  HWY_INLINE Vector3 BaseColor() const {
+  HWY_INLINE Vector3 BaseColor() {
     Vector3 color = Splat3(surface_.base_color.data());
     if (surface_.base_color_texture.chain != nullptr)
       color = Product(color, LookUpTexture(surface_.base_color_texture));
@@ -64,7 +67,7 @@ class SurfaceReader {
   }
 
   // Interpolated normal, or the triangle's where there is none; turned to the viewer on double-sided surfaces.
-  HWY_INLINE Vector3 ShadingNormal() const {
+  HWY_INLINE Vector3 ShadingNormal() {
     const auto stream = corners_.StreamAt(kNormalField);
     Vector3 normal = facet_.unit_normal;
     if (!stream.IsMissing()) {
@@ -83,7 +86,7 @@ class SurfaceReader {
 
  private:
   // The normal map's vector in the frame of tangent, bitangent and normal (glTF 2.0, 3.9.3).
-  HWY_INLINE Vector3 Perturbed(const Vector3& normal) const {
+  HWY_INLINE Vector3 Perturbed(const Vector3& normal) {
     const auto stream = corners_.StreamAt(kTangentField);
     if (stream.IsMissing()) return normal;
     const Vector3 t = LookUpTexture(surface_.normal_texture);
@@ -106,6 +109,9 @@ class SurfaceReader {
   const TriangleCorners<kUniform>& corners_;
   const Facet& facet_;
   const Hit& hit_;
+  // Of the binding that was read last.
+  image::HWY_NAMESPACE::Footprint footprint_;
+  const frame::TextureBinding* placed_ = nullptr;
 };
 
 HWY_INLINE void Store3(const Vector3& v, float* x, float* y, float* z, std::size_t i) {
@@ -123,7 +129,7 @@ HWY_INLINE void StorePoints(const PointSource& source, const frame::Surface& sur
   const FloatTag d;
   const Facet& facet = hits.facet;
   const Hit& hit = hits.hit;
-  const SurfaceReader reader(source, surface, hits);
+  SurfaceReader reader(source, surface, hits);
   const Vector3 seen_normal =
       IfThenElse3(hit.shows_back, facet.unit_normal * Splat(-1.0F), facet.unit_normal);
   Store3(hit.position_ws, s.x_ws.data(), s.y_ws.data(), s.z_ws.data(), i);
